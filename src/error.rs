@@ -54,6 +54,103 @@ pub enum Error {
         /// Arc length, m.
         s: f64,
     },
+    /// A bounded iteration that did not reach its tolerance.
+    #[error("{what} did not converge in {iterations} iterations; the last correction was {residual}")]
+    NoConvergence {
+        /// Which iteration.
+        what: &'static str,
+        /// How many iterations were made.
+        iterations: usize,
+        /// Size of the last correction.
+        residual: f64,
+    },
+    /// A polygon that bounds no section.
+    #[error(transparent)]
+    Polygon(#[from] PolygonError),
+}
+
+/// Why a polygon bounds no section: which ring, which vertices or edges.
+///
+/// Ring 0 is the outer boundary, ring k the k-th hole. Edge i runs from vertex i to the next one of its ring.
+#[non_exhaustive]
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum PolygonError {
+    /// A vertex with an infinite or undefined coordinate.
+    #[error("ring {ring}, vertex {vertex} is ({x}, {y}), but coordinates must be finite")]
+    NotFinite {
+        /// Which ring.
+        ring: usize,
+        /// Which vertex.
+        vertex: usize,
+        /// Its first coordinate.
+        x: f64,
+        /// Its second coordinate.
+        y: f64,
+    },
+    /// Fewer than three vertices.
+    #[error("ring {ring} has {count} vertices, but needs at least 3")]
+    TooFewVertices {
+        /// Which ring.
+        ring: usize,
+        /// How many vertices it has.
+        count: usize,
+    },
+    /// Two equal vertices in one ring. A ring closes by itself: do not repeat its first vertex.
+    #[error("ring {ring} visits the same place with vertices {first} and {second}; list each vertex once")]
+    RepeatedVertex {
+        /// Which ring.
+        ring: usize,
+        /// The first of the two vertices.
+        first: usize,
+        /// The second of the two vertices.
+        second: usize,
+    },
+    /// All vertices on one line.
+    #[error("ring {ring} encloses no area: its vertices lie on one line")]
+    ZeroArea {
+        /// Which ring.
+        ring: usize,
+    },
+    /// Two edges of one ring that cross or touch.
+    #[error("ring {ring} is not simple: its edges {first} and {second} cross or touch")]
+    SelfIntersection {
+        /// Which ring.
+        ring: usize,
+        /// The first of the two edges.
+        first: usize,
+        /// The second of the two edges.
+        second: usize,
+    },
+    /// Edges of two rings that cross or touch.
+    #[error("edge {edge} of ring {ring} crosses or touches edge {other_edge} of ring {other}")]
+    RingsCross {
+        /// The ring being added.
+        ring: usize,
+        /// Its edge.
+        edge: usize,
+        /// The ring it meets.
+        other: usize,
+        /// The edge it meets.
+        other_edge: usize,
+    },
+    /// A hole that lies outside the outer boundary.
+    #[error("hole {ring} lies outside the outer boundary, for instance its vertex 0 at ({x}, {y})")]
+    HoleOutside {
+        /// Which ring.
+        ring: usize,
+        /// First coordinate of its first vertex.
+        x: f64,
+        /// Second coordinate of its first vertex.
+        y: f64,
+    },
+    /// A hole inside another hole.
+    #[error("hole {ring} and hole {other} are nested; keep the larger one only")]
+    HolesNested {
+        /// The ring being added.
+        ring: usize,
+        /// The ring it contains or lies in.
+        other: usize,
+    },
 }
 
 /// Result with this crate's [`Error`].

@@ -14,6 +14,7 @@ pub mod se3;
 pub mod so3;
 mod vectors;
 
+pub use coefficients::{dexp_coefficients, dexp_inv_coefficients, stumpff};
 pub use map::TwistMap;
 pub use pose::Pose;
 pub use vectors::{Strain, Twist, Wrench};

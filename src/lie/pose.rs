@@ -2,7 +2,7 @@ use approx::{AbsDiffEq, RelativeEq};
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 use std::ops::Mul;
 
-use super::{TwistMap, so3::hat};
+use super::{Twist, TwistMap, se3, so3::hat};
 use crate::scalar::Scalar;
 
 /// A rigid placement g = (R, p) in SE(3): a point r of the section sits at p + R r in space.
@@ -37,6 +37,19 @@ impl<D: Scalar> Pose<D> {
     #[inline]
     pub fn adjoint(&self) -> TwistMap<D> {
         TwistMap { diagonal: self.rotation, lower: hat(&self.position) * self.rotation }
+    }
+
+    /// Ad_{g⁻¹} = Ad_g⁻¹ = [[Rᵀ, 0], [−Rᵀ p^, Rᵀ]].
+    #[inline]
+    pub fn adjoint_inverse(&self) -> TwistMap<D> {
+        let transpose = self.rotation.transpose();
+        TwistMap { diagonal: transpose, lower: -(transpose * hat(&self.position)) }
+    }
+
+    /// The twist Ω of g = exp Ω^: [`se3::log`].
+    #[inline]
+    pub fn log(&self) -> Twist<D> {
+        se3::log(self)
     }
 
     /// Where a point given in this frame lies in space: p + R r.

@@ -2,7 +2,7 @@ use approx::{AbsDiffEq, RelativeEq, UlpsEq};
 use nalgebra::{Vector3, Vector6};
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
-use super::{TwistMap, so3::hat};
+use super::{Pose, TwistMap, se3, so3::hat};
 use crate::scalar::Scalar;
 
 /// Gives a pair of 3-vectors the operations of a vector space, conversions to and from six numbers, and `approx` traits.
@@ -208,6 +208,12 @@ impl<D: Scalar> Twist<D> {
     #[inline]
     pub fn ad(&self) -> TwistMap<D> {
         TwistMap { diagonal: hat(&self.angular), lower: hat(&self.linear) }
+    }
+
+    /// The pose exp ξ^ reached by moving one unit along this twist: [`se3::exp`].
+    #[inline]
+    pub fn exp(&self) -> Pose<D> {
+        se3::exp(self)
     }
 
     /// The power Λ·η of a wrench on this twist.

@@ -4,7 +4,12 @@
 //! [`num_dual`] over `f64`. What lives here knows about differentiation and nothing about mechanics: no strain,
 //! no section, no rod.
 
+mod primitives;
+
 use num_dual::DualNum;
+
+pub(crate) use primitives::from_taylor;
+pub use primitives::x_minus_ln_1p;
 
 /// A real number or any dual number over `f64`, passed by value.
 ///

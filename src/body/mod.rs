@@ -1,0 +1,140 @@
+//! What a rod is made of along s: length, section, reference strain, and mass where a scene asks for it.
+//!
+//! A [`Body`] starts without mass: a scene without gravity never mentions one. [`Body::with_density`] changes its *type*, and
+//! only then does it have the capability [`HasMass`] that gravity requires; leaving it out is a compile error.
+//!
+//! What lives here knows sections, one after the other along s; it knows no pose, no load and no boundary condition.
+
+mod mass;
+mod reference;
+
+pub use mass::{Density, HasMass, LineDensity, MassModel, Massless};
+pub use reference::ReferenceShape;
+
+use num_dual::Dual64;
+
+use crate::error::{Error, Result};
+use crate::lie::{Strain, Twist};
+use crate::material::{Reference, Request, Response, Station};
+use crate::section::CrossSection;
+
+/// A body along the arc length s ∈ [0, L]: a section at every s, and the shape it has at rest.
+///
+/// ```
+/// use hyperrod::Body;
+/// use hyperrod::material::LinearElastic;
+/// use hyperrod::section::{Circle, Section};
+/// # fn main() -> hyperrod::Result<()> {
+/// let section = Section::new(Circle::new(1e-3), LinearElastic::new(70e9, 26e9)?)?;
+/// let wire = Body::new(0.5, section)?.with_density(2700.0)?;
+/// # let _ = wire; Ok(()) }
+/// ```
+#[derive(Clone, Debug)]
+pub struct Body<C, M = Massless> {
+    length: f64,
+    section: C,
+    reference: ReferenceShape,
+    mass: M,
+}
+
+impl<C: CrossSection> Body<C> {
+    /// A straight body of the given length, m, and section.
+    ///
+    /// # Errors
+    /// If the length is not positive and finite.
+    pub fn new(length: f64, section: C) -> Result<Self> {
+        if !(length > 0.0 && length.is_finite()) {
+            let quantity = "length of the body";
+            return Err(Error::Invalid { quantity, value: length, requirement: "positive and finite" });
+        }
+        Ok(Self { length, section, reference: ReferenceShape::Straight, mass: Massless })
+    }
+
+    /// The same with a density, kg/m³, of the reference: mass per length ρA.
+    ///
+    /// # Errors
+    /// If the density is not positive and finite.
+    pub fn with_density(self, density: f64) -> Result<Body<C, Density>> {
+        Ok(self.with_mass(Density::new(density)?))
+    }
+
+    /// The same with a mass per length, kg/m, for a section that knows no area.
+    ///
+    /// # Errors
+    /// If it is not positive and finite.
+    pub fn with_mass_per_length(self, mass: f64) -> Result<Body<C, LineDensity>> {
+        Ok(self.with_mass(LineDensity::new(mass)?))
+    }
+
+    fn with_mass<M>(self, mass: M) -> Body<C, M> {
+        Body { length: self.length, section: self.section, reference: self.reference, mass }
+    }
+}
+
+impl<C: CrossSection, M: Send + Sync> Body<C, M> {
+    /// The same with a constant reference strain ξ*: an arc, a helix.
+    ///
+    /// # Errors
+    /// If ξ* is not finite, or its axial component (the stretch of the reference) not positive.
+    pub fn with_reference_strain(self, xi: Twist) -> Result<Self> {
+        let stretch = xi.linear.z;
+        if !(xi.is_finite() && stretch > 0.0) {
+            let quantity = "axial component of the reference strain";
+            let requirement = "positive, and all components finite";
+            return Err(Error::Invalid { quantity, value: stretch, requirement });
+        }
+        Ok(Self { reference: ReferenceShape::Constant(xi), ..self })
+    }
+
+    /// The same with a reference strain ξ*(s) that varies along the rod, written over [`Dual64`] so that ξ*′ comes with it.
+    pub fn with_varying_reference(
+        self,
+        xi: impl Fn(Dual64) -> Twist<Dual64> + Send + Sync + 'static,
+    ) -> Self {
+        Self { reference: ReferenceShape::varying(xi), ..self }
+    }
+
+    /// Length L, m.
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// The section.
+    pub fn section(&self) -> &C {
+        &self.section
+    }
+
+    /// The station at s: arc length and reference strain.
+    pub fn station(&self, s: f64) -> Station {
+        Station { s, reference: self.reference.at(s) }
+    }
+}
+
+/// What the equilibrium of a rod asks of its body; implemented by every [`Body`].
+pub trait Elastic: Send + Sync {
+    /// Length L, m.
+    fn length(&self) -> f64;
+
+    /// The reference strain ξ* and its derivative at s.
+    fn reference(&self, s: f64) -> Reference;
+
+    /// The response of the section at s to Δξ.
+    ///
+    /// # Errors
+    /// As [`CrossSection::respond`].
+    fn respond(&self, s: f64, strain: &Strain, request: Request) -> Result<Response>;
+}
+
+impl<C: CrossSection, M: Send + Sync> Elastic for Body<C, M> {
+    fn length(&self) -> f64 {
+        self.length
+    }
+
+    fn reference(&self, s: f64) -> Reference {
+        self.reference.at(s)
+    }
+
+    fn respond(&self, s: f64, strain: &Strain, request: Request) -> Result<Response> {
+        self.section.respond(&self.station(s), strain, request)
+    }
+}

@@ -1,0 +1,51 @@
+use num_dual::Dual64;
+use std::sync::Arc;
+
+use crate::lie::Twist;
+use crate::material::Reference;
+
+type Varying = Arc<dyn Fn(Dual64) -> Twist<Dual64> + Send + Sync>;
+
+/// The shape of a body at rest, given by its strain twist ξ*(s).
+#[derive(Clone, Default)]
+pub enum ReferenceShape {
+    /// Straight and unstretched along e₃.
+    #[default]
+    Straight,
+    /// The same strain everywhere: an arc or a helix.
+    Constant(Twist),
+    /// A function of s.
+    Varying(Varying),
+}
+
+impl ReferenceShape {
+    /// From a function of s.
+    pub fn varying(xi: impl Fn(Dual64) -> Twist<Dual64> + Send + Sync + 'static) -> Self {
+        Self::Varying(Arc::new(xi))
+    }
+
+    /// ξ* and ξ*′ at s.
+    pub fn at(&self, s: f64) -> Reference {
+        match self {
+            Self::Straight => Reference::straight(),
+            Self::Constant(xi) => Reference { twist: *xi, rate: Twist::zero() },
+            Self::Varying(xi) => {
+                let xi = xi(Dual64::from_re(s).derivative()).to_array();
+                Reference {
+                    twist: Twist::from_array(xi.map(|v| v.re)),
+                    rate: Twist::from_array(xi.map(|v| v.eps)),
+                }
+            }
+        }
+    }
+}
+
+impl std::fmt::Debug for ReferenceShape {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Straight => write!(f, "Straight"),
+            Self::Constant(xi) => write!(f, "Constant({xi:?})"),
+            Self::Varying(_) => write!(f, "Varying(..)"),
+        }
+    }
+}

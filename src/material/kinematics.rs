@@ -1,0 +1,144 @@
+use nalgebra::{Matrix3, Vector3};
+
+use crate::lie::Strain;
+use crate::scalar::Scalar;
+
+/// A point of the rod: section coordinates (x, y) and arc length s, all in m.
+///
+/// All three are [`Scalar`]s, so that a law may be graded over the section and along the rod.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point<D = f64> {
+    /// First section coordinate, m.
+    pub x: D,
+    /// Second section coordinate, m.
+    pub y: D,
+    /// Arc length, m.
+    pub s: D,
+}
+
+impl Point {
+    /// The same numbers as constants of another scalar type.
+    #[inline]
+    pub fn cast<E: Scalar>(&self) -> Point<E> {
+        Point { x: E::from(self.x), y: E::from(self.y), s: E::from(self.s) }
+    }
+}
+
+/// The deformation of a point of a rigid section, F = I + γ ⊗ e₃ in the frame of the section.
+///
+/// ```math
+/// \gamma = \Delta\nu + \Delta\omega \times (x, y, 0) = (a, b, e), \qquad J - 1 = e .
+/// ```
+///
+/// It carries γ, never F: forming F = I + γ ⊗ e₃ first would lose the digits of a small strain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deformation<D = f64> {
+    gamma: Vector3<D>,
+}
+
+impl<D: Scalar> Deformation<D> {
+    /// From the third column γ of F − I.
+    #[inline]
+    pub fn from_gamma(gamma: Vector3<D>) -> Self {
+        Self { gamma }
+    }
+
+    /// Of the point (x, y) of a rigid section with strain Δξ about a straight reference.
+    #[inline]
+    pub fn of(strain: &Strain<D>, at: &Point<D>) -> Self {
+        let (omega, nu) = (strain.angular, strain.linear);
+        Self {
+            gamma: Vector3::new(
+                nu.x - omega.z * at.y,
+                nu.y + omega.z * at.x,
+                nu.z + omega.x * at.y - omega.y * at.x,
+            ),
+        }
+    }
+
+    /// γ = (a, b, e): shear along x and y, stretch − 1 along the rod.
+    #[inline]
+    pub fn gamma(&self) -> Vector3<D> {
+        self.gamma
+    }
+
+    /// H = F − I = γ ⊗ e₃.
+    pub fn gradient(&self) -> Matrix3<D> {
+        let mut h = Matrix3::from_element(D::zero());
+        h.set_column(2, &self.gamma);
+        h
+    }
+
+    /// The invariants of C = FᵀF, as deviations from rest.
+    #[inline]
+    pub fn invariants(&self) -> Invariants<D> {
+        let [a, b, e] = [self.gamma.x, self.gamma.y, self.gamma.z];
+        Invariants::from_shear_and_stretch(a * a + b * b, e)
+    }
+
+    /// |F d|² − |d|² for a direction d (a unit vector for a fibre): twice its Green strain, I₄ − 1.
+    ///
+    /// ```math
+    /// |F d|^2 - |d|^2 = d_z\,(2\, d\cdot\gamma + d_z\, \gamma\cdot\gamma)
+    /// ```
+    #[inline]
+    pub fn stretch_squared_minus_one(&self, direction: &Vector3<D>) -> D {
+        direction.z * (direction.dot(&self.gamma) * 2.0 + direction.z * self.gamma.dot(&self.gamma))
+    }
+}
+
+/// The invariants of C = FᵀF as deviations from rest, so that a small strain keeps its digits.
+///
+/// With s = a² + b² and e = J − 1 of a rigid section (see [`Deformation`]):
+///
+/// ```math
+/// I_1 - 3 = s + e(2 + e), \qquad I_2 - 3 = s + 2e(2 + e), \qquad J - 1 = e .
+/// ```
+///
+/// Both I₁ − 3 and I₂ − 3 start with a term linear in J − 1. A law free of stress at rest subtracts it, and does so without
+/// cancellation through [`i1_excess`](Self::i1_excess) and [`i2_excess`](Self::i2_excess).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Invariants<D = f64> {
+    i1_excess: D,
+    i2_excess: D,
+    j: D,
+}
+
+impl<D: Scalar> Invariants<D> {
+    /// Of a rigid section, from s = a² + b² and e = J − 1.
+    #[inline]
+    pub fn from_shear_and_stretch(s: D, e: D) -> Self {
+        let e_squared = e * e;
+        Self { i1_excess: s + e_squared, i2_excess: s + e_squared * 2.0, j: e }
+    }
+
+    /// I₁ − 3.
+    #[inline]
+    pub fn i1(&self) -> D {
+        self.i1_excess + self.j * 2.0
+    }
+
+    /// I₂ − 3.
+    #[inline]
+    pub fn i2(&self) -> D {
+        self.i2_excess + self.j * 4.0
+    }
+
+    /// J − 1.
+    #[inline]
+    pub fn j(&self) -> D {
+        self.j
+    }
+
+    /// I₁ − 3 − 2(J − 1), of second order in the strain: s + e².
+    #[inline]
+    pub fn i1_excess(&self) -> D {
+        self.i1_excess
+    }
+
+    /// I₂ − 3 − 4(J − 1), of second order in the strain: s + 2e².
+    #[inline]
+    pub fn i2_excess(&self) -> D {
+        self.i2_excess
+    }
+}

@@ -1,0 +1,227 @@
+use super::differentiate::{Fibre, FibreResponse, isotropic_response, local_response};
+use super::integrate::{integrate_local, integrate_sectional};
+use super::kinematics::{Deformation, Invariants, Point};
+use super::response::{Points, Request, Response, Station};
+use crate::error::Result;
+use crate::lie::Strain;
+use crate::scalar::Scalar;
+
+/// An energy density that depends on the invariants of the deformation alone: u(I₁−3, I₂−3, J−1), J/m³.
+///
+/// The cheapest level: two variables are differentiated instead of six. `at` is the point, for laws graded over the section or along the
+/// rod; most ignore it.
+///
+/// ```
+/// use hyperrod::Scalar;
+/// use hyperrod::material::{Invariants, Isotropic, Point};
+///
+/// struct Rubber { c1: f64, c2: f64 }
+///
+/// impl Isotropic for Rubber {
+///     fn energy_density<D: Scalar>(&self, i: &Invariants<D>, _at: &Point<D>) -> D {
+///         i.i1() * self.c1 + i.i2() * self.c2
+///     }
+/// }
+/// ```
+pub trait Isotropic: Send + Sync {
+    /// The strain energy per reference volume, J/m³.
+    fn energy_density<D: Scalar>(&self, invariants: &Invariants<D>, at: &Point<D>) -> D;
+
+    /// The degree of the energy density as a polynomial in the strain; `None` where it is not one.
+    fn degree(&self) -> Option<usize> {
+        None
+    }
+
+    /// Where the law is defined, in words for an error message.
+    fn domain(&self) -> &'static str {
+        "where the energy density is finite"
+    }
+
+    /// The energy density with the pressure taken off that the law has at rest, u − p(J−1), with p = ∂u/∂J at rest.
+    ///
+    /// Override it where the difference can be written without cancellation.
+    fn stress_free_energy_density<D: Scalar>(&self, invariants: &Invariants<D>, at: &Point<D>) -> D {
+        let rest = Point { x: at.x.re(), y: at.y.re(), s: at.s.re() };
+        self.energy_density(invariants, at) - invariants.j() * reference_pressure(self, &rest)
+    }
+}
+
+/// ∂u/∂J at rest, Pa, by a dual number.
+fn reference_pressure<L: Isotropic + ?Sized>(law: &L, at: &Point) -> f64 {
+    let e = num_dual::Dual64::from_re(0.0).derivative();
+    law.energy_density(&Invariants::from_shear_and_stretch(num_dual::Dual64::from_re(0.0), e), &at.cast()).eps
+}
+
+/// An energy density of the deformation gradient at a point: u(F), J/m³.
+///
+/// Three variables are differentiated, the third column of F − I.
+///
+/// ```
+/// use hyperrod::Scalar;
+/// use hyperrod::material::{Deformation, Local, Point};
+///
+/// /// Fibres along the rod, twice as stiff at the upper rim (y = h) as at the middle.
+/// struct Graded { young: f64, h: f64 }
+///
+/// impl Local for Graded {
+///     fn energy_density<D: Scalar>(&self, f: &Deformation<D>, at: &Point<D>) -> D {
+///         let stretch = f.gamma().z;
+///         stretch * stretch * (at.y / self.h + 1.0) * (0.5 * self.young)
+///     }
+/// }
+/// ```
+pub trait Local: Send + Sync {
+    /// The strain energy per reference volume, J/m³.
+    fn energy_density<D: Scalar>(&self, deformation: &Deformation<D>, at: &Point<D>) -> D;
+
+    /// The degree of the energy density as a polynomial in the strain; `None` where it is not one.
+    fn degree(&self) -> Option<usize> {
+        None
+    }
+
+    /// Where the law is defined, in words for an error message.
+    fn domain(&self) -> &'static str {
+        "where the energy density is finite"
+    }
+
+    /// The derivatives at one point. The library's business: a law that knows a cheaper way than three dual
+    /// variables overrides it.
+    #[doc(hidden)]
+    fn respond(&self, fibre: &Fibre, request: Request) -> FibreResponse {
+        local_response(self, fibre, request)
+    }
+}
+
+impl<L: Isotropic> Local for L {
+    #[inline]
+    fn energy_density<D: Scalar>(&self, deformation: &Deformation<D>, at: &Point<D>) -> D {
+        Isotropic::energy_density(self, &deformation.invariants(), at)
+    }
+
+    fn degree(&self) -> Option<usize> {
+        Isotropic::degree(self)
+    }
+
+    fn domain(&self) -> &'static str {
+        Isotropic::domain(self)
+    }
+
+    #[inline]
+    fn respond(&self, fibre: &Fibre, request: Request) -> FibreResponse {
+        isotropic_response(self, fibre, request)
+    }
+}
+
+/// An energy density of the section's strain and the point in it: u(Δξ, x, y), J per m² of section and m of rod.
+///
+/// The most general level, and the dearest: six variables are differentiated. It is integrated over dA as it stands: the volume
+/// of a curved reference, which the [`Local`] level accounts for, is the law's own business.
+///
+/// ```
+/// use hyperrod::material::{Point, Sectional};
+/// use hyperrod::{Scalar, Strain};
+///
+/// struct Stretch { young: f64 }
+///
+/// impl Sectional for Stretch {
+///     fn energy_density<D: Scalar>(&self, strain: &Strain<D>, at: &Point<D>) -> D {
+///         let e = strain.linear.z + strain.angular.x * at.y - strain.angular.y * at.x;
+///         e * e * (0.5 * self.young)
+///     }
+/// }
+/// ```
+pub trait Sectional: Send + Sync {
+    /// The strain energy per reference area of section and length of rod, J/m³.
+    fn energy_density<D: Scalar>(&self, strain: &Strain<D>, at: &Point<D>) -> D;
+
+    /// The degree of the energy density as a polynomial in the strain; `None` where it is not one.
+    fn degree(&self) -> Option<usize> {
+        None
+    }
+
+    /// Where the law is defined, in words for an error message.
+    fn domain(&self) -> &'static str {
+        "where the energy density is finite"
+    }
+
+    /// The sum over the points of a section. The library's business, overridden by the cheaper levels.
+    #[doc(hidden)]
+    fn sum(&self, points: &Points, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
+        integrate_sectional(self, points, at, strain, request)
+    }
+}
+
+impl<L: Local> Sectional for L {
+    #[inline]
+    fn energy_density<D: Scalar>(&self, strain: &Strain<D>, at: &Point<D>) -> D {
+        Local::energy_density(self, &Deformation::of(strain, at), at)
+    }
+
+    fn degree(&self) -> Option<usize> {
+        Local::degree(self)
+    }
+
+    fn domain(&self) -> &'static str {
+        Local::domain(self)
+    }
+
+    #[inline]
+    fn sum(&self, points: &Points, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
+        let respond = |fibre: &Fibre, request| Local::respond(self, fibre, request);
+        integrate_local(respond, Local::domain(self), points, at, strain, request)
+    }
+}
+
+/// What a section asks of its material: the integral of an energy density and of its derivatives.
+///
+/// Every law is one, at whichever level and in whichever way it was written; the trait can be made into an object, so
+/// materials can be boxed and mixed.
+pub trait Material: Send + Sync {
+    /// U = ∫u dA, Ψ = ∫∇u dA, ∂Ψ/∂Δξ and Ψ′ over the given points, as far as asked.
+    ///
+    /// # Errors
+    /// [`Error::Inadmissible`](crate::Error::Inadmissible) where a point is turned inside out (J ≤ 0) or leaves the law's domain;
+    /// [`Error::InvalidAt`](crate::Error::InvalidAt) where the strain is not finite.
+    fn integrate(
+        &self,
+        points: &Points,
+        at: &Station,
+        strain: &Strain,
+        request: Request,
+    ) -> Result<Response>;
+
+    /// The degree of the energy density as a polynomial in the strain; `None` where it is not one.
+    fn polynomial_degree(&self) -> Option<usize>;
+}
+
+impl<L: Sectional> Material for L {
+    fn integrate(
+        &self,
+        points: &Points,
+        at: &Station,
+        strain: &Strain,
+        request: Request,
+    ) -> Result<Response> {
+        self.sum(points, at, strain, request)
+    }
+
+    fn polynomial_degree(&self) -> Option<usize> {
+        Sectional::degree(self)
+    }
+}
+
+impl Material for Box<dyn Material> {
+    fn integrate(
+        &self,
+        points: &Points,
+        at: &Station,
+        strain: &Strain,
+        request: Request,
+    ) -> Result<Response> {
+        (**self).integrate(points, at, strain, request)
+    }
+
+    fn polynomial_degree(&self) -> Option<usize> {
+        (**self).polynomial_degree()
+    }
+}

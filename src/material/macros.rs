@@ -1,0 +1,78 @@
+/// Writes an [`Isotropic`](crate::material::Isotropic) law in closure syntax.
+///
+/// Captured numbers are listed with their types and taken by copy from the variables of that name; the closure may also be
+/// given a polynomial `degree`, which lets the section choose its quadrature. It expands to a type and an implementation
+/// of the trait, so it is as fast as one.
+///
+/// ```
+/// let (c1, c2) = (30e3, 10e3);
+/// let rubber = hyperrod::isotropic!([c1: f64, c2: f64] degree 2; |i, _at| i.i1_excess() * c1 + i.i2_excess() * c2);
+/// # let _ = rubber;
+/// ```
+#[macro_export]
+macro_rules! isotropic {
+    ($([$($capture:ident : $type:ty),* $(,)?])? $(degree $degree:expr;)? |$i:ident, $at:ident| $body:expr) => {
+        $crate::__law!(Isotropic, Invariants, ($($($capture : $type),*)?) ($($degree)?) |$i, $at| $body)
+    };
+}
+
+/// Writes a [`Local`](crate::material::Local) law in closure syntax. See [`isotropic!`](crate::isotropic!).
+///
+/// ```
+/// let (young, shear) = (1e6, 3e5);
+/// let fibres = hyperrod::local!([young: f64, shear: f64] degree 2; |f, _at| {
+///     let g = f.gamma();
+///     (g.x * g.x + g.y * g.y) * (0.5 * shear) + g.z * g.z * (0.5 * young)
+/// });
+/// # let _ = fibres;
+/// ```
+#[macro_export]
+macro_rules! local {
+    ($([$($capture:ident : $type:ty),* $(,)?])? $(degree $degree:expr;)? |$f:ident, $at:ident| $body:expr) => {
+        $crate::__law!(Local, Deformation, ($($($capture : $type),*)?) ($($degree)?) |$f, $at| $body)
+    };
+}
+
+/// Writes a [`Sectional`](crate::material::Sectional) law in closure syntax. See [`isotropic!`](crate::isotropic!).
+///
+/// ```
+/// let young = 1e6;
+/// let law = hyperrod::sectional!([young: f64] degree 2; |strain, at| {
+///     let e = strain.linear.z + strain.angular.x * at.y - strain.angular.y * at.x;
+///     e * e * (0.5 * young)
+/// });
+/// # let _ = law;
+/// ```
+#[macro_export]
+macro_rules! sectional {
+    ($([$($capture:ident : $type:ty),* $(,)?])? $(degree $degree:expr;)? |$strain:ident, $at:ident| $body:expr) => {
+        $crate::__law!(Sectional, __Strain, ($($($capture : $type),*)?) ($($degree)?) |$strain, $at| $body)
+    };
+}
+
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __law {
+    ($level:ident, $argument:ident, ($($capture:ident : $type:ty),*) ($($degree:expr)?) |$arg:ident, $at:ident| $body:expr) => {{
+        #[allow(unused_imports)]
+        use $crate::num_dual::DualNum as _;
+        struct Law {
+            $($capture: $type,)*
+        }
+        impl $crate::material::$level for Law {
+            #[inline]
+            fn energy_density<D: $crate::Scalar>(
+                &self,
+                $arg: &$crate::material::$argument<D>,
+                $at: &$crate::material::Point<D>,
+            ) -> D {
+                $(let $capture = self.$capture;)*
+                $body
+            }
+            $(fn degree(&self) -> Option<usize> {
+                Some($degree)
+            })?
+        }
+        Law { $($capture,)* }
+    }};
+}

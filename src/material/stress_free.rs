@@ -1,0 +1,71 @@
+use super::kinematics::{Invariants, Point};
+use super::law::{Isotropic, Material};
+use super::response::{Points, Request, Response, Station};
+use crate::error::Result;
+use crate::lie::Strain;
+use crate::scalar::Scalar;
+
+/// Any material with the stress taken off that it has at rest: U − Ψ(0)·Δξ.
+///
+/// ```math
+/// \tilde U(\Delta\xi) = U(\Delta\xi) - \Psi(0)\cdot\Delta\xi, \qquad \tilde\Psi = \Psi(\Delta\xi) - \Psi(0),
+/// \qquad \partial\tilde\Psi = \partial\Psi .
+/// ```
+///
+/// The subtraction rounds at the size of Ψ(0), so a strain of 1e-12 keeps four digits; an isotropic law keeps them all with
+/// [`ReferencePressure`], which is also the physical way (a pressure, u − p(J−1)).
+#[derive(Clone, Copy, Debug)]
+pub struct StressFree<M>(pub M);
+
+impl<M: Material> Material for StressFree<M> {
+    fn integrate(
+        &self,
+        points: &Points,
+        at: &Station,
+        strain: &Strain,
+        request: Request,
+    ) -> Result<Response> {
+        let mut response = self.0.integrate(points, at, strain, request)?;
+        let needed = if request == Request::Rate { Request::Rate } else { Request::Wrench };
+        let rest = self.0.integrate(points, at, &Strain::zero(), needed)?;
+        response.energy -= rest.energy + strain.pair(&rest.wrench);
+        if request >= Request::Wrench {
+            response.wrench -= rest.wrench;
+        }
+        response.wrench_rate -= rest.wrench_rate;
+        Ok(response)
+    }
+
+    fn polynomial_degree(&self) -> Option<usize> {
+        self.0.polynomial_degree()
+    }
+}
+
+/// An isotropic law with its reference pressure: u − p(J−1), p = ∂u/∂J at rest, so that rest is free of stress.
+///
+/// The source's Mooney–Rivlin energy C₁(I₁−3) + C₂(I₂−3) needs it: at rest it pulls with (2C₁ + 4C₂)A. With the pressure it
+/// is Ψ = K Δξ exactly, to the last digit of the smallest strain.
+///
+/// ```
+/// use hyperrod::material::{MooneyRivlin, ReferencePressure};
+/// # fn main() -> hyperrod::Result<()> {
+/// let rubber = ReferencePressure(MooneyRivlin::new(120e3, 40e3)?);
+/// # let _ = rubber; Ok(()) }
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct ReferencePressure<L>(pub L);
+
+impl<L: Isotropic> Isotropic for ReferencePressure<L> {
+    #[inline]
+    fn energy_density<D: Scalar>(&self, invariants: &Invariants<D>, at: &Point<D>) -> D {
+        self.0.stress_free_energy_density(invariants, at)
+    }
+
+    fn degree(&self) -> Option<usize> {
+        self.0.degree()
+    }
+
+    fn domain(&self) -> &'static str {
+        self.0.domain()
+    }
+}

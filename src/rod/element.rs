@@ -1,0 +1,194 @@
+//! One collocation element: kinematics, balance, and their exact linearisation about node i.
+
+use nalgebra::Matrix6;
+
+use super::collocation::Collocation;
+use super::magnus::{exponent, exponent_derivative, taylor_data};
+use crate::lie::{Pose, Twist, TwistMap, Wrench, se3, so3::hat};
+use crate::scalar::Scalar;
+
+/// Poses of the stages and the end of an element relative to its first node.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Kinematics<D, const S: usize> {
+    pub(crate) stage: [Pose<D>; S],
+    pub(crate) end: Pose<D>,
+}
+
+impl<D: Scalar, const S: usize> Kinematics<D, S> {
+    pub(crate) fn new(table: &Collocation<S>, xi: &[Twist<D>; S], h: f64) -> Self {
+        let pose = |t: &[[f64; S]; S]| se3::exp(&exponent(&taylor_data(t, xi, h)));
+        Self { stage: std::array::from_fn(|k| pose(&table.stage[k])), end: pose(&table.end) }
+    }
+
+    /// The loads of the stages brought to the first node: F_l = Ad_l⁻ᵀ f̄_l.
+    pub(crate) fn to_node(&self, stage_loads: &[Wrench<D>; S]) -> [Wrench<D>; S] {
+        std::array::from_fn(|l| self.stage[l].adjoint_inverse().apply_transpose(&stage_loads[l]))
+    }
+
+    /// Λ_i = Ad_e⁻ᵀ Λ_{i+1} + h Σ b_l F_l.
+    pub(crate) fn wrench_at_start(
+        &self,
+        table: &Collocation<S>,
+        wrench_at_end: &Wrench<D>,
+        node_loads: &[Wrench<D>; S],
+        h: f64,
+    ) -> Wrench<D> {
+        let mut wrench = self.end.adjoint_inverse().apply_transpose(wrench_at_end);
+        for l in 0..S {
+            wrench += node_loads[l] * D::from(h * table.b[l]);
+        }
+        wrench
+    }
+
+    /// Λ_k = Ad_kᵀ(Λ_i − h Σ a_kl F_l) at the stages.
+    pub(crate) fn stage_wrenches(
+        &self,
+        table: &Collocation<S>,
+        wrench_at_start: &Wrench<D>,
+        node_loads: &[Wrench<D>; S],
+        h: f64,
+    ) -> [Wrench<D>; S] {
+        std::array::from_fn(|k| {
+            let mut wrench = *wrench_at_start;
+            for l in 0..S {
+                wrench -= node_loads[l] * D::from(h * table.a[k][l]);
+            }
+            self.stage[k].adjoint().apply_transpose(&wrench)
+        })
+    }
+}
+
+/// Body displacements of stages and end per change of the stage strains: B_kl = dexp₋Ω_k ∂Ω_k/∂ξ_l.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Variations<const S: usize> {
+    pub(crate) stage: [[TwistMap; S]; S],
+    pub(crate) end: [TwistMap; S],
+}
+
+impl<const S: usize> Variations<S> {
+    pub(crate) fn new(table: &Collocation<S>, xi: &[Twist; S], h: f64) -> Self {
+        let row = |t: &[[f64; S]; S]| -> [TwistMap; S] {
+            let alpha = taylor_data(t, xi, h);
+            let d_omega = exponent_derivative(&alpha);
+            let dexp = se3::dexp(&(-exponent(&alpha)));
+            std::array::from_fn(|l| {
+                let mut sum = d_omega[0].scale(h * t[0][l]);
+                for j in 1..S {
+                    sum = sum + d_omega[j].scale(h * t[j][l]);
+                }
+                dexp * sum
+            })
+        };
+        Self { stage: std::array::from_fn(|k| row(&table.stage[k])), end: row(&table.end) }
+    }
+}
+
+/// L(Λ) = [[m^, n^], [n^, 0]]: the change L(Λ) ζ of Ad_gᵀ(constant) when the frame moves by ζ.
+pub(crate) fn frame_change(wrench: &Wrench) -> Matrix6<f64> {
+    let (m, n) = (hat(&wrench.moment), hat(&wrench.force));
+    let mut matrix = Matrix6::zeros();
+    matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&m);
+    matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&n);
+    matrix.fixed_view_mut::<3, 3>(3, 0).copy_from(&n);
+    matrix
+}
+
+/// What the linearisation of an element needs: the state about which it is taken.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ElementState<const S: usize> {
+    pub(crate) h: f64,
+    /// ξ at the stages.
+    pub(crate) xi: [Twist; S],
+    pub(crate) kinematics: Kinematics<f64, S>,
+    /// ∂Ψ/∂Δξ at the stages.
+    pub(crate) tangent: [Matrix6<f64>; S],
+    /// Λ_k at the stages.
+    pub(crate) stage_wrench: [Wrench; S],
+    /// r_k = Ψ(Δξ_k) − Λ_k.
+    pub(crate) residual: [Wrench; S],
+    pub(crate) wrench_at_end: Wrench,
+    /// Distributed load and its tangent at the stages; `None` without loads.
+    pub(crate) load: Option<[(Wrench, Matrix6<f64>); S]>,
+}
+
+/// The linearised element about node i, with the stage strains still in it:
+///
+/// A δξ = −r + P_ζ ζ_i + P_Λ δΛ_i, and ζ_{i+1}, δΛ_{i+1} from ζ_i, δΛ_i and δξ.
+#[derive(Clone, Debug)]
+pub(crate) struct Linearisation<const S: usize> {
+    /// A, S×S blocks.
+    pub(crate) stage: [[Matrix6<f64>; S]; S],
+    pub(crate) from_zeta: [Matrix6<f64>; S],
+    pub(crate) from_wrench: [Matrix6<f64>; S],
+    pub(crate) residual: [Wrench; S],
+    /// Ad_e⁻¹.
+    pub(crate) end_adjoint: Matrix6<f64>,
+    /// B_el.
+    pub(crate) end_strain: [Matrix6<f64>; S],
+    /// ∂Λ_{i+1}/∂ζ_i at fixed δξ.
+    pub(crate) wrench_from_zeta: Matrix6<f64>,
+    /// Ad_eᵀ.
+    pub(crate) wrench_from_wrench: Matrix6<f64>,
+    /// ∂Λ_{i+1}/∂ξ_l.
+    pub(crate) wrench_from_strain: [Matrix6<f64>; S],
+}
+
+impl<const S: usize> Linearisation<S> {
+    /// With y_k = Σ_l B_kl δξ_l and z_l = Ad_l⁻¹ ζ_i + y_l the displacement of stage l,
+    ///
+    /// δΛ_k = L(Λ_k) y_k + Ad_kᵀ(δΛ_i − h Σ a_kl δF_l), δF_l = Ad_l⁻ᵀ(D_l z_l − L(f̄_l) y_l),
+    /// K_k δξ_k − δΛ_k = −r_k,
+    /// ζ_{i+1} = Ad_e⁻¹ ζ_i + y_e, δΛ_{i+1} = L(Λ_{i+1}) y_e + Ad_eᵀ(δΛ_i − h Σ b_l δF_l).
+    pub(crate) fn new(table: &Collocation<S>, state: &ElementState<S>) -> Self {
+        let variations = Variations::new(table, &state.xi, state.h);
+        let b = variations.stage.map(|row| row.map(|map| map.to_matrix()));
+        let end_strain = variations.end.map(|map| map.to_matrix());
+        let transpose = state.kinematics.stage.map(|g| g.adjoint().to_matrix().transpose());
+        let end_transpose = state.kinematics.end.adjoint().to_matrix().transpose();
+        let end_change = frame_change(&state.wrench_at_end);
+
+        let mut stage: [[Matrix6<f64>; S]; S] = std::array::from_fn(|k| {
+            let change = frame_change(&state.stage_wrench[k]);
+            std::array::from_fn(|m| {
+                let block = -(change * b[k][m]);
+                if k == m { block + state.tangent[k] } else { block }
+            })
+        });
+        let mut from_zeta = [Matrix6::zeros(); S];
+        let mut wrench_from_zeta = Matrix6::zeros();
+        let mut wrench_from_strain = end_strain.map(|block| end_change * block);
+
+        if let Some(loads) = &state.load {
+            for (l, (load, tangent)) in loads.iter().enumerate() {
+                let inverse = state.kinematics.stage[l].adjoint_inverse().to_matrix();
+                // δF_l = G_l y_l + E_l ζ_i
+                let g = inverse.transpose() * (tangent - frame_change(load));
+                let e = inverse.transpose() * tangent * inverse;
+                let g_b = b[l].map(|block| g * block);
+                for k in 0..S {
+                    let factor = transpose[k] * (state.h * table.a[k][l]);
+                    for m in 0..S {
+                        stage[k][m] += factor * g_b[m];
+                    }
+                    from_zeta[k] -= factor * e;
+                }
+                let factor = end_transpose * (state.h * table.b[l]);
+                for m in 0..S {
+                    wrench_from_strain[m] -= factor * g_b[m];
+                }
+                wrench_from_zeta -= factor * e;
+            }
+        }
+        Self {
+            stage,
+            from_zeta,
+            from_wrench: transpose,
+            residual: state.residual,
+            end_adjoint: state.kinematics.end.adjoint_inverse().to_matrix(),
+            end_strain,
+            wrench_from_zeta,
+            wrench_from_wrench: end_transpose,
+            wrench_from_strain,
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Cross-sections: shapes whose points move along s, and what a section answers to a strain.
+//!
+//! A [`Section`] is a [`Shape`] filled with a [`Material`](crate::material::Material); a [`Stiffness`] is a section given by its
+//! resultants alone. Both are a [`CrossSection`]: strain in, energy, wrench Ψ, tangent ∂Ψ/∂Δξ and rate Ψ′ out. What a section
+//! weighs follows from its [`Geometry`].
+//!
+//! What lives here knows one section at a time: nothing of lengths, poses or loads.
+
+mod circle;
+mod geometry;
+mod profile;
+mod rectangle;
+mod shape;
+mod solid;
+mod stiffness;
+
+pub use circle::Circle;
+pub use geometry::{AreaMoments, Geometry};
+pub use profile::{Linear, Profile};
+pub use rectangle::Rectangle;
+pub use shape::{Affine, Shape};
+pub use solid::Section;
+pub use stiffness::Stiffness;
+
+use nalgebra::Matrix6;
+
+use crate::error::Result;
+use crate::lie::{Strain, Wrench};
+use crate::material::{Request, Response, Station};
+
+/// What a rod asks of its section: the response to a strain at a station, in `f64`; it can be made into an object.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a cross-section",
+    label = "a rod's body needs a cross-section here",
+    note = "build one with `Section::new(shape, material)`, or give the resultants with `Stiffness`"
+)]
+pub trait CrossSection: Send + Sync {
+    /// Energy, wrench, tangent and rate at a station, as far as asked.
+    ///
+    /// # Errors
+    /// [`Error::Inadmissible`](crate::Error::Inadmissible) where the material cannot be strained so;
+    /// [`Error::InvalidAt`](crate::Error::InvalidAt) where a size of the section or the strain is not what it must be.
+    fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response>;
+
+    /// The strain energy per length U = ∫u dA, J/m.
+    ///
+    /// # Errors
+    /// As [`respond`](Self::respond).
+    fn energy(&self, at: &Station, strain: &Strain) -> Result<f64> {
+        Ok(self.respond(at, strain, Request::Energy)?.energy)
+    }
+
+    /// The internal wrench Ψ = ∫∇u dA: moment in N m, force in N.
+    ///
+    /// # Errors
+    /// As [`respond`](Self::respond).
+    #[doc(alias = "Psi")]
+    fn wrench(&self, at: &Station, strain: &Strain) -> Result<Wrench> {
+        Ok(self.respond(at, strain, Request::Wrench)?.wrench)
+    }
+
+    /// The tangent ∂Ψ/∂Δξ, rows and columns (angular, linear).
+    ///
+    /// # Errors
+    /// As [`respond`](Self::respond).
+    #[doc(alias = "Psi_der")]
+    fn tangent(&self, at: &Station, strain: &Strain) -> Result<Matrix6<f64>> {
+        Ok(self.respond(at, strain, Request::Tangent)?.tangent)
+    }
+
+    /// Ψ′ = ∂Ψ/∂s at fixed Δξ: what taper, twist and grading add. Moment part in N, force part in N/m.
+    ///
+    /// # Errors
+    /// As [`respond`](Self::respond).
+    #[doc(alias = "Psi_prime")]
+    fn wrench_rate(&self, at: &Station, strain: &Strain) -> Result<Wrench> {
+        Ok(self.respond(at, strain, Request::Rate)?.wrench_rate)
+    }
+}
+
+impl CrossSection for Box<dyn CrossSection> {
+    fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
+        (**self).respond(at, strain, request)
+    }
+}

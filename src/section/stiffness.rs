@@ -1,0 +1,83 @@
+use nalgebra::{Matrix6, Vector6};
+
+use super::CrossSection;
+use crate::error::{Error, Result};
+use crate::lie::{Strain, Wrench};
+use crate::material::{Request, Response, Station};
+
+/// A section given by its resultants alone: Ψ = K Δξ with a constant, symmetric, positive definite K.
+///
+/// ```math
+/// U = \tfrac12\, \Delta\xi^{\mathsf T} K \Delta\xi
+/// ```
+///
+/// For measured stiffnesses, or with torsion constants and shear factors typed in.
+///
+/// ```
+/// use hyperrod::section::Stiffness;
+/// # fn main() -> hyperrod::Result<()> {
+/// // EI_x, EI_y, GJ in N m²; GA_x, GA_y, EA in N
+/// let cable = Stiffness::diagonal([0.8, 0.8, 0.5, 1e5, 1e5, 3e5])?;
+/// # let _ = cable; Ok(()) }
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stiffness {
+    k: Matrix6<f64>,
+}
+
+impl Stiffness {
+    /// From the full matrix, rows and columns (angular, linear).
+    ///
+    /// # Errors
+    /// If K is not symmetric (to 1e-12 of its diagonal) or not positive definite.
+    pub fn new(k: Matrix6<f64>) -> Result<Self> {
+        for i in 0..6 {
+            for j in 0..i {
+                let asymmetry = (k[(i, j)] - k[(j, i)]).abs();
+                if asymmetry > 1e-12 * (k[(i, i)] * k[(j, j)]).abs().sqrt() {
+                    let requirement = "symmetric";
+                    return Err(Error::Invalid {
+                        quantity: "asymmetry of K",
+                        value: asymmetry,
+                        requirement,
+                    });
+                }
+            }
+        }
+        if k.cholesky().is_none() {
+            let value = k.symmetric_eigenvalues().min();
+            let quantity = "smallest eigenvalue of K";
+            return Err(Error::Invalid { quantity, value, requirement: "positive and finite" });
+        }
+        Ok(Self { k })
+    }
+
+    /// K = diag(EI_x, EI_y, GJ, GA_x, GA_y, EA), in N m² and N.
+    ///
+    /// # Errors
+    /// If an entry is not positive and finite.
+    pub fn diagonal(entries: [f64; 6]) -> Result<Self> {
+        const NAMES: [&str; 6] = ["EI_x", "EI_y", "GJ", "GA_x", "GA_y", "EA"];
+        for (value, quantity) in entries.into_iter().zip(NAMES) {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Error::Invalid { quantity, value, requirement: "positive and finite" });
+            }
+        }
+        Ok(Self { k: Matrix6::from_diagonal(&Vector6::from(entries)) })
+    }
+}
+
+impl CrossSection for Stiffness {
+    fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
+        crate::material::check_strain(strain, at.s)?;
+        let wrench = Wrench::from_vector(&(self.k * strain.to_vector()));
+        let mut response = Response { energy: 0.5 * strain.pair(&wrench), ..Response::zero() };
+        if request >= Request::Wrench {
+            response.wrench = wrench;
+        }
+        if request >= Request::Tangent {
+            response.tangent = self.k;
+        }
+        Ok(response)
+    }
+}

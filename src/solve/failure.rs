@@ -1,0 +1,57 @@
+use thiserror::Error;
+
+use super::{Report, StaticSolution};
+use crate::error::Error;
+
+/// Why a solve ended without an answer.
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum Reason {
+    /// The options make no sense.
+    #[error("{0}")]
+    Options(Error),
+    /// The rod cannot be evaluated where the solve starts, at its reference shape.
+    #[error("the rod cannot be evaluated at its reference shape: {0}")]
+    Start(Error),
+    /// No step, however short, leads to an admissible state.
+    #[error("no admissible step: even {fraction:.1e} of the Newton step of iteration {iteration} fails ({error})")]
+    NoAdmissibleStep {
+        /// Iteration, counted from 0.
+        iteration: usize,
+        /// The last fraction tried.
+        fraction: f64,
+        /// What was wrong with the trial state.
+        error: Error,
+    },
+    /// The tangent has no inverse: a limit point, or a mechanism.
+    #[error("the tangent of iteration {iteration} is singular ({error}): a limit point of the load, or a rod that is free to move")]
+    Singular {
+        /// Iteration, counted from 0.
+        iteration: usize,
+        /// Where.
+        error: Error,
+    },
+    /// The iteration limit was reached.
+    #[error("no convergence in {limit} iterations: last step {step:.3e}, asked {tolerance:.1e}; apply the load in steps, or raise the limit")]
+    IterationLimit {
+        /// The limit.
+        limit: usize,
+        /// The last step.
+        step: f64,
+        /// The step asked for.
+        tolerance: f64,
+    },
+}
+
+/// A solve that failed: why, how it went, and the last state it had.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("static solve failed: {reason}")]
+pub struct Failure {
+    /// Why.
+    #[source]
+    pub reason: Reason,
+    /// How it went.
+    pub report: Report,
+    /// The last admissible state, not an equilibrium; `None` if there was none.
+    pub last: Option<StaticSolution>,
+}

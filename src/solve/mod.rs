@@ -1,0 +1,17 @@
+//! Solving: Newton's method for static equilibrium, the chain of linearised elements, and reports.
+//!
+//! What lives here drives the elements of [`rod`](crate::rod): when to step, how far, when to stop, and what to tell the user. It
+//! prints nothing; give a solve an observer to watch it.
+
+mod chain;
+mod equilibrium;
+mod failure;
+mod newton;
+mod report;
+mod solution;
+mod statics;
+
+pub use failure::{Failure, Reason};
+pub use report::{ErrorEstimate, Iteration, Report};
+pub use solution::{Node, StaticSolution};
+pub use statics::{Order, Statics};

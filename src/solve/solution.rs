@@ -1,0 +1,62 @@
+use super::Report;
+use crate::lie::{Pose, Strain, Wrench};
+
+/// The state of the rod at one arc length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node {
+    /// Arc length s, m.
+    pub s: f64,
+    /// Pose g.
+    pub pose: Pose,
+    /// Strain Δξ from the reference.
+    pub strain: Strain,
+    /// Internal wrench Ψ = Λ in body frame.
+    pub wrench: Wrench,
+}
+
+/// A rod in static equilibrium.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StaticSolution {
+    pub(super) nodes: Vec<Node>,
+    pub(super) stages: Vec<Node>,
+    pub(super) strain_energy: f64,
+    pub(super) load_potential: Option<f64>,
+    pub(super) report: Report,
+}
+
+impl StaticSolution {
+    /// The nodes, from base to tip: poses and wrenches of the full order of the element, and the strain that carries the wrench.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// The Gauss stages, from base to tip, where the strains are the unknowns of the solve.
+    pub fn stages(&self) -> &[Node] {
+        &self.stages
+    }
+
+    /// The node at the free end.
+    pub fn tip(&self) -> &Node {
+        &self.nodes[self.nodes.len() - 1]
+    }
+
+    /// The node at the clamp.
+    pub fn base(&self) -> &Node {
+        &self.nodes[0]
+    }
+
+    /// Strain energy ∫U ds, J.
+    pub fn strain_energy(&self) -> f64 {
+        self.strain_energy
+    }
+
+    /// Potential energy of the loads, J (zero at the origin of space); `None` where one of them has none.
+    pub fn load_potential(&self) -> Option<f64> {
+        self.load_potential
+    }
+
+    /// How the solve went.
+    pub fn report(&self) -> &Report {
+        &self.report
+    }
+}
