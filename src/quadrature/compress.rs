@@ -1,6 +1,6 @@
 use crate::error::Result;
 
-use super::basis::{Frame, dimension, moments, values};
+use super::basis::{Basis, dimension, moments};
 use super::householder::{Columns, Householder, axpy, dot};
 use super::rule::{Rule, invalid};
 
@@ -18,12 +18,19 @@ pub(super) fn compress(rule: &Rule, degree: usize) -> Result<Rule> {
     if degree > MAX_COMPRESSED_DEGREE {
         return Err(invalid("degree of a compressed quadrature rule", degree as f64, "at most 30"));
     }
-    let m = dimension(degree);
+    if rule.len() <= dimension(degree) {
+        return Ok(rule.clone());
+    }
+    compress_on(rule, degree, &Basis::new(rule, degree))
+}
+
+/// As [`compress`], with the rule's basis at hand.
+pub(super) fn compress_on(rule: &Rule, degree: usize, basis: &Basis) -> Result<Rule> {
+    let m = basis.len();
     if rule.len() <= m {
         return Ok(rule.clone());
     }
-    let frame = Frame::new(rule);
-    let basis: Columns = rule.iter().map(|(x, y, _)| values(degree, frame.local(x, y))).collect();
+    let basis: Columns = rule.iter().map(|(x, y, _)| basis.values(basis.frame.local(x, y))).collect();
     let mut points: Vec<(usize, f64)> = rule.weights().iter().copied().enumerate().collect();
     let target = moments(points.iter().map(|&(i, w)| (w, basis[i].as_slice())), m);
     for _ in 0..MAX_ROUNDS {

@@ -1,6 +1,6 @@
 use crate::error::Result;
 
-use super::basis::{Frame, dimension, gradients, moments, values};
+use super::basis::{Basis, moments};
 use super::householder::{Columns, axpy, dot};
 use super::rule::Rule;
 
@@ -22,7 +22,7 @@ struct Node {
 
 /// The moment equations Σ w φ(x) = b of one shape.
 struct Moments<'a> {
-    degree: usize,
+    basis: &'a Basis,
     target: Vec<f64>,
     inside: &'a dyn Fn([f64; 2]) -> bool,
 }
@@ -32,15 +32,16 @@ struct Moments<'a> {
 ///
 /// Xiao & Gimbutas (2010), "A numerical algorithm for the construction of efficient quadrature rules in two and higher
 /// dimensions". The points with the least share in the moments are tried first.
-pub(super) fn eliminate(rule: &Rule, degree: usize, inside: impl Fn(f64, f64) -> bool) -> Result<Rule> {
-    let (frame, area) = (Frame::new(rule), rule.area());
+pub(super) fn eliminate(rule: &Rule, basis: &Basis, inside: impl Fn(f64, f64) -> bool) -> Result<Rule> {
+    let area = rule.area();
+    let frame = &basis.frame;
     let mut nodes: Vec<Node> =
         rule.iter().map(|(x, y, w)| Node { place: frame.local(x, y), weight: w / area }).collect();
     let local_inside = |place: [f64; 2]| {
         let (x, y) = frame.global(place);
         inside(x, y)
     };
-    let mut problem = Moments { degree, target: Vec::new(), inside: &local_inside };
+    let mut problem = Moments { basis, target: Vec::new(), inside: &local_inside };
     problem.target = problem.of(&nodes);
     let all = nodes.len();
     for _ in 0..all {
@@ -54,13 +55,13 @@ pub(super) fn eliminate(rule: &Rule, degree: usize, inside: impl Fn(f64, f64) ->
         let (x, y) = frame.global(node.place);
         (x, y, area * node.weight)
     });
-    Rule::from_points(points, degree.min(rule.degree()))
+    Rule::from_points(points, rule.degree())
 }
 
 impl Moments<'_> {
     fn of(&self, nodes: &[Node]) -> Vec<f64> {
-        let columns: Columns = nodes.iter().map(|node| values(self.degree, node.place)).collect();
-        moments(nodes.iter().zip(&columns).map(|(n, c)| (n.weight, c.as_slice())), dimension(self.degree))
+        let columns: Columns = nodes.iter().map(|node| self.basis.values(node.place)).collect();
+        moments(nodes.iter().zip(&columns).map(|(n, c)| (n.weight, c.as_slice())), self.basis.len())
     }
 
     fn residual(&self, nodes: &[Node]) -> Vec<f64> {
@@ -76,7 +77,7 @@ impl Moments<'_> {
             return None;
         }
         let share = |node: &Node| {
-            let column = values(self.degree, node.place);
+            let column = self.basis.values(node.place);
             node.weight * dot(&column, &column)
         };
         let mut order: Vec<(f64, usize)> = nodes.iter().map(share).zip(0..).collect();
@@ -111,9 +112,10 @@ impl Moments<'_> {
         let jacobian: Vec<[Vec<f64>; 3]> = nodes
             .iter()
             .map(|node| {
-                let [by_u, by_v] = gradients(self.degree, node.place);
+                let values = self.basis.values(node.place);
+                let [by_u, by_v] = self.basis.gradients(node.place, &values);
                 let scaled = |g: Vec<f64>| g.iter().map(|x| node.weight * x).collect();
-                [scaled(by_u), scaled(by_v), values(self.degree, node.place)]
+                [scaled(by_u), scaled(by_v), values]
             })
             .collect();
         let m = residual.len();

@@ -89,14 +89,15 @@ pub(super) fn axpy(a: f64, x: &[f64], y: &mut [f64]) {
     }
 }
 
-/// x·y in four partial sums, which the compiler can put in one vector register.
+/// x·y over the shorter of both, in four partial sums, which the compiler can put in one vector register.
 pub(super) fn dot(x: &[f64], y: &[f64]) -> f64 {
-    let (mut sums, whole) = ([0.0; 4], x.len() / 4 * 4);
+    let length = x.len().min(y.len());
+    let (mut sums, whole) = ([0.0; 4], length / 4 * 4);
     for (a, b) in x.chunks_exact(4).zip(y.chunks_exact(4)) {
         for i in 0..4 {
             sums[i] += a[i] * b[i];
         }
     }
-    let rest: f64 = x[whole..].iter().zip(&y[whole..]).map(|(a, b)| a * b).sum();
+    let rest: f64 = x[whole..length].iter().zip(&y[whole..length]).map(|(a, b)| a * b).sum();
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
