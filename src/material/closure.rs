@@ -1,19 +1,18 @@
-use nalgebra::{Const, U1, Vector3};
-use num_dual::Dual2SVec64;
-
-use super::differentiate::{Fibre, unpack};
-use super::integrate::{add_sectional, finite, inadmissible, integrate_local, moving, variables};
+use super::differentiate::{Fibre, FibreResponse, Rate, unpack};
+use super::integrate::{EnergyJet, Respond, Site, diagnose, sum_local, sum_sectional};
 use super::kinematics::{Deformation, Invariants, Point};
 use super::law::Material;
-use super::response::{Points, Request, Response, Station, check_strain};
+use super::response::{Points, Request, Response, Station};
 use crate::error::Result;
-use crate::lie::{Strain, Wrench};
+use crate::lie::Strain;
+use crate::scalar::lane::{Kernel, dispatch};
+use crate::scalar::{Jet, Lane, Portable};
 
 /// The dual number a [`local`] or [`isotropic`] closure is written over: variables (a, b, e, s), second order.
-pub type LocalJet = Dual2SVec64<4>;
+pub type LocalJet = Jet<Portable, 4, 10>;
 
 /// The dual number a [`sectional`] closure is written over: variables (Δξ, s), second order.
-pub type SectionalJet = Dual2SVec64<7>;
+pub type SectionalJet = Jet<Portable, 7, 28>;
 
 const DOMAIN: &str = "where the energy density is finite";
 
@@ -72,12 +71,52 @@ where
     SectionalClosure(energy_density)
 }
 
-/// γ and the point as functions of the four variables (a, b, e, s).
-fn local_variables(fibre: &Fibre) -> (Vector3<LocalJet>, Point<LocalJet>) {
-    let ds = LocalJet::from_re(0.0).derivative(3);
-    let gamma = [0, 1, 2]
-        .map(|i| LocalJet::from_re(fibre.gamma[i]).derivative(i) + ds * fibre.gamma_rate[i]);
-    (Vector3::from(gamma), moving(&fibre.point, fibre.point_rate[0], fibre.point_rate[1]))
+/// Runs a closure on blocks of points inside the best instruction set of the machine.
+struct ClosureKernel<'a, F>(&'a ClosureLaw<F>, Site<'a>);
+
+struct ClosureLaw<F>(F);
+
+impl<F> Respond<Portable, Rate> for ClosureLaw<F>
+where
+    F: Fn(&Deformation<LocalJet>, &Point<LocalJet>) -> LocalJet,
+{
+    #[inline(always)]
+    fn respond_at(&self, fibre: &Fibre<Portable>) -> FibreResponse<Portable> {
+        unpack(&(self.0)(&fibre.gamma(), &fibre.moving_point()))
+    }
+}
+
+impl<F> EnergyJet<SectionalJet> for ClosureLaw<F>
+where
+    F: Fn(&Strain<SectionalJet>, &Point<SectionalJet>) -> SectionalJet,
+{
+    #[inline(always)]
+    fn energy_jet(&self, strain: &Strain<SectionalJet>, at: &Point<SectionalJet>) -> SectionalJet {
+        (self.0)(strain, at)
+    }
+}
+
+impl<F> Kernel for ClosureKernel<'_, F>
+where
+    F: Fn(&Deformation<LocalJet>, &Point<LocalJet>) -> LocalJet,
+{
+    type Output = Response;
+
+    #[inline(always)]
+    fn run<L: Lane>(self) -> Response {
+        sum_local::<Portable, Rate, _>(self.1, self.0)
+    }
+}
+
+/// Integrates a closure of the deformation and the point.
+fn integrate_closure(
+    energy_density: impl Fn(&Deformation<LocalJet>, &Point<LocalJet>) -> LocalJet,
+    site: Site<'_>,
+) -> Result<Response> {
+    let law = ClosureLaw(energy_density);
+    let sum = |site: Site<'_>| dispatch(ClosureKernel(&law, site));
+    let response = sum(site);
+    if response.is_finite() { Ok(response) } else { Err(diagnose(DOMAIN, site, true, sum)) }
 }
 
 impl<F> Material for IsotropicClosure<F>
@@ -89,13 +128,9 @@ where
         points: &Points,
         at: &Station,
         strain: &Strain,
-        request: Request,
+        _request: Request,
     ) -> Result<Response> {
-        let respond = |fibre: &Fibre, _| {
-            let (gamma, point) = local_variables(fibre);
-            unpack(&(self.0)(&Deformation::from_gamma(gamma).invariants(), &point))
-        };
-        integrate_local(respond, DOMAIN, points, at, strain, request)
+        integrate_closure(|f, point| (self.0)(&f.invariants(), point), Site { points, at, strain })
     }
 
     fn polynomial_degree(&self) -> Option<usize> {
@@ -112,17 +147,28 @@ where
         points: &Points,
         at: &Station,
         strain: &Strain,
-        request: Request,
+        _request: Request,
     ) -> Result<Response> {
-        let respond = |fibre: &Fibre, _| {
-            let (gamma, point) = local_variables(fibre);
-            unpack(&(self.0)(&Deformation::from_gamma(gamma), &point))
-        };
-        integrate_local(respond, DOMAIN, points, at, strain, request)
+        integrate_closure(&self.0, Site { points, at, strain })
     }
 
     fn polynomial_degree(&self) -> Option<usize> {
         None
+    }
+}
+
+/// As [`ClosureKernel`], for a section-level closure.
+struct SectionalKernel<'a, F>(&'a ClosureLaw<F>, Site<'a>);
+
+impl<F> Kernel for SectionalKernel<'_, F>
+where
+    F: Fn(&Strain<SectionalJet>, &Point<SectionalJet>) -> SectionalJet,
+{
+    type Output = Response;
+
+    #[inline(always)]
+    fn run<L: Lane>(self) -> Response {
+        sum_sectional(self.1, Request::Rate, self.0)
     }
 }
 
@@ -137,21 +183,11 @@ where
         strain: &Strain,
         _request: Request,
     ) -> Result<Response> {
-        check_strain(strain, at.s)?;
-        let mut total = Response::zero();
-        for q in 0..points.len() {
-            let (x, y, w) = (points.x[q], points.y[q], points.weight[q]);
-            let [dx, dy, dw] = points.rate(q);
-            let u = (self.0)(&variables::<7>(strain), &moving(&Point { x, y, s: at.s }, dx, dy));
-            if !u.re.is_finite() {
-                return Err(inadmissible("energy density", u.re, DOMAIN, at.s, x, y));
-            }
-            add_sectional(&mut total, &u, w);
-            let g = u.v1.unwrap_generic(U1, Const::<7>);
-            let h = u.v2.unwrap_generic(Const::<7>, Const::<7>);
-            total.wrench_rate += Wrench::from_array(std::array::from_fn(|i| w * h[(i, 6)] + dw * g[i]));
-        }
-        finite(total, at)
+        let site = Site { points, at, strain };
+        let law = ClosureLaw(&self.0);
+        let sum = |site: Site<'_>| dispatch(SectionalKernel(&law, site));
+        let response = sum(site);
+        if response.is_finite() { Ok(response) } else { Err(diagnose(DOMAIN, site, false, sum)) }
     }
 
     fn polynomial_degree(&self) -> Option<usize> {

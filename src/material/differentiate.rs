@@ -1,167 +1,232 @@
-//! Derivatives of a local law at one point, each with the fewest variables.
+//! Derivatives of a local law at a block of points, each with the fewest variables.
 
-use nalgebra::{Const, U1, Vector3};
-use num_dual::{Dual2SVec64, DualSVec64};
+use nalgebra::Vector3;
 
 use super::kinematics::{Deformation, Invariants, Point};
 use super::law::{Isotropic, Local};
 use super::response::Request;
+use crate::scalar::{Jet, Lane};
 
-/// A point of the section and the column γ of F − I there, with how they change along s at fixed Δξ.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fibre {
-    /// The point.
-    pub point: Point,
+/// A request known at compile time, so that each is compiled for itself.
+pub trait Level: Send + Sync {
+    /// The request.
+    const REQUEST: Request;
+}
+
+/// [`Request::Energy`] as a type.
+#[derive(Clone, Copy, Debug)]
+pub struct Energy;
+/// [`Request::Wrench`] as a type.
+#[derive(Clone, Copy, Debug)]
+pub struct Wrench;
+/// [`Request::Tangent`] as a type.
+#[derive(Clone, Copy, Debug)]
+pub struct Tangent;
+/// [`Request::Rate`] as a type.
+#[derive(Clone, Copy, Debug)]
+pub struct Rate;
+
+impl Level for Energy {
+    const REQUEST: Request = Request::Energy;
+}
+impl Level for Wrench {
+    const REQUEST: Request = Request::Wrench;
+}
+impl Level for Tangent {
+    const REQUEST: Request = Request::Tangent;
+}
+impl Level for Rate {
+    const REQUEST: Request = Request::Rate;
+}
+
+/// Points of the section, one a lane, and the column γ of F − I there, with how they change along s at fixed Δξ.
+#[derive(Clone, Copy, Debug)]
+pub struct Fibre<L> {
+    /// x and y.
+    pub position: [L; 2],
     /// x′ and y′.
-    pub point_rate: [f64; 2],
+    pub position_rate: [L; 2],
+    /// s.
+    pub s: L,
     /// γ = (a, b, e).
-    pub gamma: [f64; 3],
+    pub gamma: [L; 3],
     /// ∂γ/∂s at fixed Δξ, 1/m.
-    pub gamma_rate: [f64; 3],
+    pub gamma_rate: [L; 3],
 }
 
-/// Value and derivatives of a local energy density u(γ) at one point, as far as asked.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FibreResponse {
-    /// u, J/m³.
-    pub energy: f64,
-    /// ∂u/∂γ, Pa: the traction on the section.
-    pub stress: [f64; 3],
-    /// ∂²u/∂γ², Pa, in the order aa, ab, ae, bb, be, ee.
-    pub stiffness: [f64; 6],
-    /// d(∂u/∂γ)/ds at fixed Δξ, Pa/m.
-    pub stress_rate: [f64; 3],
-}
-
-/// The point as constants of a dual type that has the arc length as variable number `N − 1`.
-fn moving_point<const N: usize>(fibre: &Fibre) -> Point<Dual2SVec64<N>> {
-    let ds = Dual2SVec64::<N>::from_re(0.0).derivative(N - 1);
-    let Point { x, y, s } = fibre.point;
-    Point { x: ds * fibre.point_rate[0] + x, y: ds * fibre.point_rate[1] + y, s: ds + s }
-}
-
-fn variable<const N: usize>(value: f64, index: usize) -> Dual2SVec64<N> {
-    Dual2SVec64::from_re(value).derivative(index)
-}
-
-/// Three variables (a, b, e), and s as a fourth where Ψ′ is wanted.
-pub(super) fn local_response<L: Local + ?Sized>(law: &L, fibre: &Fibre, request: Request) -> FibreResponse {
-    match request {
-        Request::Energy => FibreResponse {
-            energy: law.energy_density(
-                &Deformation::from_gamma(Vector3::from(fibre.gamma)),
-                &fibre.point,
-            ),
-            ..Default::default()
-        },
-        Request::Wrench => {
-            let gamma =
-                [0, 1, 2].map(|i| DualSVec64::<3>::from_re(fibre.gamma[i]).derivative(i));
-            let u = law.energy_density(
-                &Deformation::from_gamma(Vector3::from(gamma)),
-                &fibre.point.cast(),
-            );
-            let g = u.eps.unwrap_generic(Const::<3>, U1);
-            FibreResponse { energy: u.re, stress: [g[0], g[1], g[2]], ..Default::default() }
+impl<L: Lane> Fibre<L> {
+    /// The point of lane `i` in every lane.
+    #[inline(always)]
+    pub(super) fn only(&self, i: usize) -> Self {
+        let ([x, y], [dx, dy]) = (self.position, self.position_rate);
+        let ([a, b, e], [da, db, de]) = (self.gamma, self.gamma_rate);
+        Self {
+            position: [x.spread(i), y.spread(i)],
+            position_rate: [dx.spread(i), dy.spread(i)],
+            s: self.s.spread(i),
+            gamma: [a.spread(i), b.spread(i), e.spread(i)],
+            gamma_rate: [da.spread(i), db.spread(i), de.spread(i)],
         }
-        Request::Tangent => {
-            let gamma = [0, 1, 2].map(|i| variable::<3>(fibre.gamma[i], i));
-            let u = law.energy_density(
-                &Deformation::from_gamma(Vector3::from(gamma)),
-                &fibre.point.cast(),
-            );
-            unpack(&u)
+    }
+
+    /// The points as constants.
+    #[inline(always)]
+    fn fixed_point<const N: usize, const M: usize>(&self) -> Point<Jet<L, N, M>> {
+        let [x, y] = self.position;
+        Point { x: Jet::constant(x), y: Jet::constant(y), s: Jet::constant(self.s) }
+    }
+
+    /// The points as functions of s, the last of `N` variables.
+    #[inline(always)]
+    pub(super) fn moving_point<const N: usize, const M: usize>(&self) -> Point<Jet<L, N, M>> {
+        let ([x, y], [dx, dy]) = (self.position, self.position_rate);
+        Point { x: along(x, dx), y: along(y, dy), s: along(self.s, L::splat(1.0)) }
+    }
+
+    /// γ as the first three of `N` variables, moving with s, the fourth, where there is one.
+    #[inline(always)]
+    pub(super) fn gamma<const N: usize, const M: usize>(&self) -> Deformation<Jet<L, N, M>> {
+        let mut a = Jet::variable(self.gamma[0], 0);
+        let mut b = Jet::variable(self.gamma[1], 1);
+        let mut e = Jet::variable(self.gamma[2], 2);
+        if N > 3 {
+            a.gradient[3] = self.gamma_rate[0];
+            b.gradient[3] = self.gamma_rate[1];
+            e.gradient[3] = self.gamma_rate[2];
         }
-        Request::Rate => {
-            let ds = variable::<4>(0.0, 3);
-            let gamma = [0, 1, 2].map(|i| variable::<4>(fibre.gamma[i], i) + ds * fibre.gamma_rate[i]);
-            unpack(&law.energy_density(
-                &Deformation::from_gamma(Vector3::from(gamma)),
-                &moving_point(fibre),
-            ))
-        }
+        Deformation::from_gamma(Vector3::new(a, b, e))
     }
 }
 
-/// Reads value, stress, stiffness and, from a fourth variable, the stress rate.
-pub(super) fn unpack<const N: usize>(u: &Dual2SVec64<N>) -> FibreResponse {
-    let g = u.v1.clone().unwrap_generic(U1, Const::<N>);
-    let h = u.v2.clone().unwrap_generic(Const::<N>, Const::<N>);
+/// A number that moves with the last of `N` variables.
+#[inline(always)]
+pub(super) fn along<L: Lane, const N: usize, const M: usize>(value: L, rate: L) -> Jet<L, N, M> {
+    let mut jet = Jet::constant(value);
+    if N > 0 {
+        jet.gradient[N - 1] = rate;
+    }
+    jet
+}
+
+/// Value and derivatives of a local energy density u(γ) at a block of points, as far as asked.
+#[derive(Clone, Copy, Debug)]
+pub struct FibreResponse<L> {
+    /// u, J/m³.
+    pub energy: L,
+    /// ∂u/∂γ, Pa: the traction on the section.
+    pub stress: [L; 3],
+    /// ∂²u/∂γ², Pa, in the order aa, ab, ae, bb, be, ee.
+    pub stiffness: [L; 6],
+    /// d(∂u/∂γ)/ds at fixed Δξ, Pa/m.
+    pub stress_rate: [L; 3],
+}
+
+impl<L: Lane> FibreResponse<L> {
+    #[inline(always)]
+    fn energy_only(energy: L) -> Self {
+        let zero = L::splat(0.0);
+        Self { energy, stress: [zero; 3], stiffness: [zero; 6], stress_rate: [zero; 3] }
+    }
+}
+
+/// Three variables (a, b, e), and s as a fourth where Ψ′ is wanted.
+#[inline(always)]
+pub(super) fn local_response<M: Local + ?Sized, L: Lane, O: Level>(
+    law: &M,
+    fibre: &Fibre<L>,
+) -> FibreResponse<L> {
+    match O::REQUEST {
+        Request::Energy => {
+            let [a, b, e] = fibre.gamma;
+            let gamma = Vector3::new(Jet::<L, 0, 0>::constant(a), Jet::constant(b), Jet::constant(e));
+            let u = law.energy_density(&Deformation::from_gamma(gamma), &fibre.fixed_point());
+            FibreResponse::energy_only(u.value)
+        }
+        Request::Wrench => {
+            let u = law.energy_density(&fibre.gamma::<3, 0>(), &fibre.fixed_point());
+            FibreResponse { stress: u.gradient, ..FibreResponse::energy_only(u.value) }
+        }
+        Request::Tangent => {
+            let u = law.energy_density(&fibre.gamma::<3, 6>(), &fibre.fixed_point());
+            FibreResponse { stress: u.gradient, stiffness: u.hessian, ..FibreResponse::energy_only(u.value) }
+        }
+        Request::Rate => unpack(&law.energy_density(&fibre.gamma::<4, 10>(), &fibre.moving_point())),
+    }
+}
+
+/// Reads value, stress, stiffness and stress rate off a jet in (a, b, e, s).
+#[inline(always)]
+pub(super) fn unpack<L: Lane>(u: &Jet<L, 4, 10>) -> FibreResponse<L> {
+    let ([g_a, g_b, g_e, _], h) = (u.gradient, u.hessian);
     FibreResponse {
-        energy: u.re,
-        stress: [g[0], g[1], g[2]],
-        stiffness: [h[(0, 0)], h[(0, 1)], h[(0, 2)], h[(1, 1)], h[(1, 2)], h[(2, 2)]],
-        stress_rate: if N > 3 { [h[(0, 3)], h[(1, 3)], h[(2, 3)]] } else { [0.0; 3] },
+        energy: u.value,
+        stress: [g_a, g_b, g_e],
+        stiffness: [h[0], h[1], h[2], h[4], h[5], h[7]],
+        stress_rate: [h[3], h[6], h[8]],
     }
 }
 
 /// Two variables (s = a² + b², e), and the arc length as a third where Ψ′ is wanted; the chain rule through s by hand:
 ///
 /// ∂u/∂a = 2a u_s, ∂²u/∂a∂b = 4ab u_ss + 2δ_ab u_s, ∂²u/∂a∂e = 2a u_se.
-pub(super) fn isotropic_response<L: Isotropic + ?Sized>(
-    law: &L,
-    fibre: &Fibre,
-    request: Request,
-) -> FibreResponse {
+#[inline(always)]
+pub(super) fn isotropic_response<M: Isotropic + ?Sized, L: Lane, O: Level>(
+    law: &M,
+    fibre: &Fibre<L>,
+) -> FibreResponse<L> {
     let [a, b, e] = fibre.gamma;
-    let shear = a * a + b * b;
-    match request {
-        Request::Energy => FibreResponse {
-            energy: law.energy_density(&Invariants::from_shear_and_stretch(shear, e), &fibre.point),
-            ..Default::default()
-        },
+    let shear = a.mul_add(a, b * b);
+    let (two_a, two_b) = (a + a, b + b);
+    match O::REQUEST {
+        Request::Energy => {
+            let i = Invariants::from_shear_and_stretch(Jet::<L, 0, 0>::constant(shear), Jet::constant(e));
+            FibreResponse::energy_only(law.energy_density(&i, &fibre.fixed_point()).value)
+        }
         Request::Wrench => {
-            let s = DualSVec64::<2>::from_re(shear).derivative(0);
-            let e = DualSVec64::<2>::from_re(e).derivative(1);
-            let u = law.energy_density(&Invariants::from_shear_and_stretch(s, e), &fibre.point.cast());
-            let g = u.eps.unwrap_generic(Const::<2>, U1);
-            FibreResponse {
-                energy: u.re,
-                stress: [2.0 * a * g[0], 2.0 * b * g[0], g[1]],
-                ..Default::default()
-            }
+            let (s, e) = (Jet::<L, 2, 0>::variable(shear, 0), Jet::variable(e, 1));
+            let u = law.energy_density(&Invariants::from_shear_and_stretch(s, e), &fibre.fixed_point());
+            let [u_s, u_e] = u.gradient;
+            FibreResponse { stress: [two_a * u_s, two_b * u_s, u_e], ..FibreResponse::energy_only(u.value) }
         }
         Request::Tangent => {
-            let s = variable::<2>(shear, 0);
-            let e = variable::<2>(e, 1);
-            let u = law.energy_density(&Invariants::from_shear_and_stretch(s, e), &fibre.point.cast());
-            chain_through_shear(&u, fibre)
+            let (s, e) = (Jet::<L, 2, 3>::variable(shear, 0), Jet::variable(e, 1));
+            let u = law.energy_density(&Invariants::from_shear_and_stretch(s, e), &fibre.fixed_point());
+            chain_through_shear(u.value, u.gradient, u.hessian, [two_a, two_b])
         }
         Request::Rate => {
             let [da, db, de] = fibre.gamma_rate;
-            let ds = variable::<3>(0.0, 2);
-            let s = variable::<3>(shear, 0) + ds * (2.0 * (a * da + b * db));
-            let e = variable::<3>(e, 1) + ds * de;
-            let u = law.energy_density(&Invariants::from_shear_and_stretch(s, e), &moving_point(fibre));
-            chain_through_shear(&u, fibre)
+            let mut s = Jet::<L, 3, 6>::variable(shear, 0);
+            s.gradient[2] = two_a.mul_add(da, two_b * db);
+            let mut e = Jet::variable(e, 1);
+            e.gradient[2] = de;
+            let u = law.energy_density(&Invariants::from_shear_and_stretch(s, e), &fibre.moving_point());
+            let ([u_s, u_e, _], [ss, se, s_rate, ee, e_rate, _]) = (u.gradient, u.hessian);
+            let mut out = chain_through_shear(u.value, [u_s, u_e], [ss, se, ee], [two_a, two_b]);
+            out.stress_rate =
+                [two_a.mul_add(s_rate, (da + da) * u_s), two_b.mul_add(s_rate, (db + db) * u_s), e_rate];
+            out
         }
     }
 }
 
-fn chain_through_shear<const N: usize>(u: &Dual2SVec64<N>, fibre: &Fibre) -> FibreResponse {
-    let [a, b, _] = fibre.gamma;
-    let g = u.v1.clone().unwrap_generic(U1, Const::<N>);
-    let h = u.v2.clone().unwrap_generic(Const::<N>, Const::<N>);
-    let (u_s, u_e) = (g[0], g[1]);
-    let (u_ss, u_se, u_ee) = (h[(0, 0)], h[(0, 1)], h[(1, 1)]);
-    let mut response = FibreResponse {
-        energy: u.re,
-        stress: [2.0 * a * u_s, 2.0 * b * u_s, u_e],
+#[inline(always)]
+fn chain_through_shear<L: Lane>(
+    energy: L,
+    [u_s, u_e]: [L; 2],
+    [u_ss, u_se, u_ee]: [L; 3],
+    [two_a, two_b]: [L; 2],
+) -> FibreResponse<L> {
+    let (a_ss, b_ss, two_u_s) = (two_a * u_ss, two_b * u_ss, u_s + u_s);
+    FibreResponse {
+        stress: [two_a * u_s, two_b * u_s, u_e],
         stiffness: [
-            4.0 * a * a * u_ss + 2.0 * u_s,
-            4.0 * a * b * u_ss,
-            2.0 * a * u_se,
-            4.0 * b * b * u_ss + 2.0 * u_s,
-            2.0 * b * u_se,
+            two_a.mul_add(a_ss, two_u_s),
+            two_b * a_ss,
+            two_a * u_se,
+            two_b.mul_add(b_ss, two_u_s),
+            two_b * u_se,
             u_ee,
         ],
-        stress_rate: [0.0; 3],
-    };
-    if N > 2 {
-        let [da, db, _] = fibre.gamma_rate;
-        let (u_s_rate, u_e_rate) = (h[(0, 2)], h[(1, 2)]);
-        response.stress_rate =
-            [2.0 * (da * u_s + a * u_s_rate), 2.0 * (db * u_s + b * u_s_rate), u_e_rate];
+        ..FibreResponse::energy_only(energy)
     }
-    response
 }

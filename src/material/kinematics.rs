@@ -18,7 +18,7 @@ pub struct Point<D = f64> {
 
 impl Point {
     /// The same numbers as constants of another scalar type.
-    #[inline]
+    #[inline(always)]
     pub fn cast<E: Scalar>(&self) -> Point<E> {
         Point { x: E::from(self.x), y: E::from(self.y), s: E::from(self.s) }
     }
@@ -38,13 +38,13 @@ pub struct Deformation<D = f64> {
 
 impl<D: Scalar> Deformation<D> {
     /// From the third column γ of F − I.
-    #[inline]
+    #[inline(always)]
     pub fn from_gamma(gamma: Vector3<D>) -> Self {
         Self { gamma }
     }
 
     /// Of the point (x, y) of a rigid section with strain Δξ about a straight reference.
-    #[inline]
+    #[inline(always)]
     pub fn of(strain: &Strain<D>, at: &Point<D>) -> Self {
         let (omega, nu) = (strain.angular, strain.linear);
         Self {
@@ -57,7 +57,7 @@ impl<D: Scalar> Deformation<D> {
     }
 
     /// γ = (a, b, e): shear along x and y, stretch − 1 along the rod.
-    #[inline]
+    #[inline(always)]
     pub fn gamma(&self) -> Vector3<D> {
         self.gamma
     }
@@ -70,7 +70,7 @@ impl<D: Scalar> Deformation<D> {
     }
 
     /// The invariants of C = FᵀF, as deviations from rest.
-    #[inline]
+    #[inline(always)]
     pub fn invariants(&self) -> Invariants<D> {
         let [a, b, e] = [self.gamma.x, self.gamma.y, self.gamma.z];
         Invariants::from_shear_and_stretch(a * a + b * b, e)
@@ -81,7 +81,7 @@ impl<D: Scalar> Deformation<D> {
     /// ```math
     /// |F d|^2 - |d|^2 = d_z\,(2\, d\cdot\gamma + d_z\, \gamma\cdot\gamma)
     /// ```
-    #[inline]
+    #[inline(always)]
     pub fn stretch_squared_minus_one(&self, direction: &Vector3<D>) -> D {
         direction.z * (direction.dot(&self.gamma) * 2.0 + direction.z * self.gamma.dot(&self.gamma))
     }
@@ -106,38 +106,38 @@ pub struct Invariants<D = f64> {
 
 impl<D: Scalar> Invariants<D> {
     /// Of a rigid section, from s = a² + b² and e = J − 1.
-    #[inline]
+    #[inline(always)]
     pub fn from_shear_and_stretch(s: D, e: D) -> Self {
         let e_squared = e * e;
         Self { i1_excess: s + e_squared, i2_excess: s + e_squared * 2.0, j: e }
     }
 
     /// I₁ − 3.
-    #[inline]
+    #[inline(always)]
     pub fn i1(&self) -> D {
         self.i1_excess + self.j * 2.0
     }
 
     /// I₂ − 3.
-    #[inline]
+    #[inline(always)]
     pub fn i2(&self) -> D {
         self.i2_excess + self.j * 4.0
     }
 
     /// J − 1.
-    #[inline]
+    #[inline(always)]
     pub fn j(&self) -> D {
         self.j
     }
 
     /// I₁ − 3 − 2(J − 1), of second order in the strain: s + e².
-    #[inline]
+    #[inline(always)]
     pub fn i1_excess(&self) -> D {
         self.i1_excess
     }
 
     /// I₂ − 3 − 4(J − 1), of second order in the strain: s + 2e².
-    #[inline]
+    #[inline(always)]
     pub fn i2_excess(&self) -> D {
         self.i2_excess
     }

@@ -1,10 +1,10 @@
-use super::differentiate::{Fibre, FibreResponse, isotropic_response, local_response};
-use super::integrate::{integrate_local, integrate_sectional};
+use super::differentiate::{Fibre, FibreResponse, Level, isotropic_response, local_response};
+use super::integrate::{Site, integrate_local, integrate_sectional};
 use super::kinematics::{Deformation, Invariants, Point};
 use super::response::{Points, Request, Response, Station};
 use crate::error::Result;
 use crate::lie::Strain;
-use crate::scalar::Scalar;
+use crate::scalar::{Lane, Scalar};
 
 /// An energy density that depends on the invariants of the deformation alone: u(I₁−3, I₂−3, J−1), J/m³.
 ///
@@ -84,16 +84,16 @@ pub trait Local: Send + Sync {
         "where the energy density is finite"
     }
 
-    /// The derivatives at one point. The library's business: a law that knows a cheaper way than three dual
-    /// variables overrides it.
+    /// The derivatives at a block of points. The library's business, overridden by the isotropic level.
     #[doc(hidden)]
-    fn respond(&self, fibre: &Fibre, request: Request) -> FibreResponse {
-        local_response(self, fibre, request)
+    #[inline(always)]
+    fn respond<L: Lane, O: Level>(&self, fibre: &Fibre<L>) -> FibreResponse<L> {
+        local_response::<Self, L, O>(self, fibre)
     }
 }
 
-impl<L: Isotropic> Local for L {
-    #[inline]
+impl<M: Isotropic> Local for M {
+    #[inline(always)]
     fn energy_density<D: Scalar>(&self, deformation: &Deformation<D>, at: &Point<D>) -> D {
         Isotropic::energy_density(self, &deformation.invariants(), at)
     }
@@ -106,9 +106,9 @@ impl<L: Isotropic> Local for L {
         Isotropic::domain(self)
     }
 
-    #[inline]
-    fn respond(&self, fibre: &Fibre, request: Request) -> FibreResponse {
-        isotropic_response(self, fibre, request)
+    #[inline(always)]
+    fn respond<L: Lane, O: Level>(&self, fibre: &Fibre<L>) -> FibreResponse<L> {
+        isotropic_response::<Self, L, O>(self, fibre)
     }
 }
 
@@ -147,12 +147,12 @@ pub trait Sectional: Send + Sync {
     /// The sum over the points of a section. The library's business, overridden by the cheaper levels.
     #[doc(hidden)]
     fn sum(&self, points: &Points, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
-        integrate_sectional(self, points, at, strain, request)
+        integrate_sectional(self, Site { points, at, strain }, request)
     }
 }
 
 impl<L: Local> Sectional for L {
-    #[inline]
+    #[inline(always)]
     fn energy_density<D: Scalar>(&self, strain: &Strain<D>, at: &Point<D>) -> D {
         Local::energy_density(self, &Deformation::of(strain, at), at)
     }
@@ -167,8 +167,7 @@ impl<L: Local> Sectional for L {
 
     #[inline]
     fn sum(&self, points: &Points, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
-        let respond = |fibre: &Fibre, request| Local::respond(self, fibre, request);
-        integrate_local(respond, Local::domain(self), points, at, strain, request)
+        integrate_local(self, Site { points, at, strain }, request)
     }
 }
 
@@ -182,13 +181,8 @@ pub trait Material: Send + Sync {
     /// # Errors
     /// [`Error::Inadmissible`](crate::Error::Inadmissible) where a point is turned inside out (J ≤ 0) or leaves the law's domain;
     /// [`Error::InvalidAt`](crate::Error::InvalidAt) where the strain is not finite.
-    fn integrate(
-        &self,
-        points: &Points,
-        at: &Station,
-        strain: &Strain,
-        request: Request,
-    ) -> Result<Response>;
+    fn integrate(&self, points: &Points, at: &Station, strain: &Strain, request: Request)
+    -> Result<Response>;
 
     /// The degree of the energy density as a polynomial in the strain; `None` where it is not one.
     fn polynomial_degree(&self) -> Option<usize>;

@@ -49,7 +49,7 @@ impl LinearElastic {
 }
 
 impl Sectional for LinearElastic {
-    #[inline]
+    #[inline(always)]
     fn energy_density<D: Scalar>(&self, strain: &Strain<D>, at: &Point<D>) -> D {
         let gamma = Deformation::of(strain, at).gamma();
         (gamma.x * gamma.x + gamma.y * gamma.y) * (0.5 * self.shear) + gamma.z * gamma.z * (0.5 * self.young)

@@ -60,7 +60,7 @@ macro_rules! __law {
             $($capture: $type,)*
         }
         impl $crate::material::$level for Law {
-            #[inline]
+            #[inline(always)]
             fn energy_density<D: $crate::Scalar>(
                 &self,
                 $arg: &$crate::material::$argument<D>,

@@ -26,11 +26,15 @@ mod mooney_rivlin;
 mod neo_hookean;
 mod response;
 mod stress_free;
+mod sums;
 
+#[doc(hidden)]
+pub use crate::lie::Strain as __Strain;
 pub use closure::{
     IsotropicClosure, LocalClosure, LocalJet, SectionalClosure, SectionalJet, isotropic, local, sectional,
 };
-pub use differentiate::{Fibre, FibreResponse};
+#[doc(hidden)]
+pub use differentiate::{Fibre, FibreResponse, Level};
 pub use kinematics::{Deformation, Invariants, Point};
 pub use law::{Isotropic, Local, Material, Sectional};
 pub use linear_elastic::LinearElastic;
@@ -38,6 +42,4 @@ pub use mooney_rivlin::MooneyRivlin;
 pub use neo_hookean::NeoHookean;
 pub(crate) use response::check_strain;
 pub use response::{PointRates, Points, Reference, Request, Response, Station};
-#[doc(hidden)]
-pub use crate::lie::Strain as __Strain;
 pub use stress_free::{ReferencePressure, StressFree};

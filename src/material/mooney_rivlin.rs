@@ -58,7 +58,7 @@ impl MooneyRivlin {
 }
 
 impl Isotropic for MooneyRivlin {
-    #[inline]
+    #[inline(always)]
     fn energy_density<D: Scalar>(&self, i: &Invariants<D>, _at: &Point<D>) -> D {
         i.i1() * self.c1 + i.i2() * self.c2
     }
@@ -67,7 +67,7 @@ impl Isotropic for MooneyRivlin {
         Some(2)
     }
 
-    #[inline]
+    #[inline(always)]
     fn stress_free_energy_density<D: Scalar>(&self, i: &Invariants<D>, _at: &Point<D>) -> D {
         i.i1_excess() * self.c1 + i.i2_excess() * self.c2
     }

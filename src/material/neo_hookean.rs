@@ -28,9 +28,7 @@ impl NeoHookean {
     /// If μ is not positive and finite, or λ + 2μ/3 (the bulk modulus) not positive and finite.
     pub fn new(mu: f64, lambda: f64) -> Result<Self> {
         let bulk = lambda + 2.0 / 3.0 * mu;
-        for (quantity, value) in
-            [("shear modulus mu", mu), ("bulk modulus lambda + 2 mu / 3", bulk)]
-        {
+        for (quantity, value) in [("shear modulus mu", mu), ("bulk modulus lambda + 2 mu / 3", bulk)] {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(Error::Invalid { quantity, value, requirement: "positive and finite" });
             }
@@ -56,7 +54,7 @@ impl NeoHookean {
 }
 
 impl Isotropic for NeoHookean {
-    #[inline]
+    #[inline(always)]
     fn energy_density<D: Scalar>(&self, i: &Invariants<D>, _at: &Point<D>) -> D {
         let ln_j = i.j().ln_1p();
         (i.i1_excess() + x_minus_ln_1p(i.j()) * 2.0) * (0.5 * self.mu) + ln_j * ln_j * (0.5 * self.lambda)

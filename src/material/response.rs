@@ -33,21 +33,23 @@ pub struct Response {
 
 impl Response {
     /// No response.
+    #[inline]
     pub fn zero() -> Self {
-        Self {
-            energy: 0.0,
-            wrench: Wrench::zero(),
-            tangent: Matrix6::zeros(),
-            wrench_rate: Wrench::zero(),
-        }
+        Self { energy: 0.0, wrench: Wrench::zero(), tangent: Matrix6::zeros(), wrench_rate: Wrench::zero() }
     }
 
     /// Whether every number is finite.
+    #[inline]
     pub fn is_finite(&self) -> bool {
-        self.energy.is_finite()
-            && self.wrench.is_finite()
-            && self.wrench_rate.is_finite()
-            && self.tangent.iter().all(|k| k.is_finite())
+        // x − x is 0 for a finite x and NaN otherwise: one sum tells of all
+        let mut sum = self.energy - self.energy;
+        for v in self.tangent.as_slice() {
+            sum += v - v;
+        }
+        for v in self.wrench.to_array().into_iter().chain(self.wrench_rate.to_array()) {
+            sum += v - v;
+        }
+        sum == 0.0
     }
 }
 
@@ -75,15 +77,16 @@ impl Reference {
         Self { twist: Twist::straight(), rate: Twist::zero() }
     }
 
-    /// The volume of the reference body per dA ds at (x, y), j = γ*·e₃ = ν*_z + ω*_x y − ω*_y x, and its
-    /// derivative when (x, y) moves at the given rate.
+    /// Whether the volume of the reference per dA ds, γ*·e₃ = ν*_z + ω*_x y − ω*_y x, is anything but 1.
     #[inline]
-    pub(crate) fn volume(&self, x: f64, y: f64, rate: [f64; 2]) -> (f64, f64) {
-        let (xi, d_xi) = (&self.twist, &self.rate);
-        let j = xi.linear.z + xi.angular.x * y - xi.angular.y * x;
-        let d_j = d_xi.linear.z + d_xi.angular.x * y - d_xi.angular.y * x + xi.angular.x * rate[1]
-            - xi.angular.y * rate[0];
-        (j, d_j)
+    pub(crate) fn is_curved(&self) -> bool {
+        let (xi, rate) = (&self.twist, &self.rate);
+        !(xi.angular.x == 0.0
+            && xi.angular.y == 0.0
+            && xi.linear.z == 1.0
+            && rate.angular.x == 0.0
+            && rate.angular.y == 0.0
+            && rate.linear.z == 0.0)
     }
 }
 
@@ -136,12 +139,6 @@ impl Points {
     /// Whether there is no point at all.
     pub fn is_empty(&self) -> bool {
         self.weight.is_empty()
-    }
-
-    /// (x′, y′, w′) of point `q`, zero where nothing moves.
-    #[inline]
-    pub(crate) fn rate(&self, q: usize) -> [f64; 3] {
-        self.rates.as_ref().map_or([0.0; 3], |r| [r.x[q], r.y[q], r.weight[q]])
     }
 }
 

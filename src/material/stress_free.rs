@@ -56,7 +56,7 @@ impl<M: Material> Material for StressFree<M> {
 pub struct ReferencePressure<L>(pub L);
 
 impl<L: Isotropic> Isotropic for ReferencePressure<L> {
-    #[inline]
+    #[inline(always)]
     fn energy_density<D: Scalar>(&self, invariants: &Invariants<D>, at: &Point<D>) -> D {
         self.0.stress_free_energy_density(invariants, at)
     }

@@ -46,9 +46,8 @@ impl<const S: usize> Collocation<S> {
         std::array::from_fn(|j| {
             std::array::from_fn(|l| {
                 // the j-th Taylor coefficient of a polynomial: Σ_i binom(i, j) p_i middle^{i-j}
-                let shifted = (j..S).rev().fold(0.0, |sum, i| {
-                    sum * middle + binomial(i, j) * self.lagrange[l][i]
-                });
+                let shifted =
+                    (j..S).rev().fold(0.0, |sum, i| sum * middle + binomial(i, j) * self.lagrange[l][i]);
                 shifted * c.powi(j as i32 + 1)
             })
         })

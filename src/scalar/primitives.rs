@@ -1,48 +1,62 @@
 use super::Scalar;
+use super::lane::Lane;
 
-/// f(x) for any dual number, from the Taylor coefficients f⁽ᵏ⁾(r)/k! at its real part r.
+/// A function of one real number, given by its Taylor coefficients over any number of [`Lane`]s.
 ///
-/// x − r is nilpotent, so the sum up to the order of the number is exact.
+/// [`Scalar::apply`] makes a function of dual numbers of it. Coefficients that are computed without cancellation give derivatives
+/// without cancellation, where differentiating the formula of the value would not.
+pub trait Univariate {
+    /// f⁽ᵏ⁾(x)/k!.
+    fn taylor<L: Lane>(&self, x: L, k: usize) -> L;
+}
+
+/// f(x) for any dual number: x − re(x) is nilpotent, so the Taylor sum up to the order of the number is exact.
 #[inline]
-pub(crate) fn from_taylor<D: Scalar>(x: D, coefficient: impl Fn(usize) -> f64) -> D {
-    let step = x - x.re();
-    let mut sum = D::from(coefficient(D::NDERIV));
+pub(super) fn from_taylor<D: Scalar>(x: D, f: &impl Univariate) -> D {
+    let real = x.re();
+    let step = x - real;
+    let mut sum = D::from(f.taylor(real, D::NDERIV));
     for k in (0..D::NDERIV).rev() {
-        sum = sum * step + coefficient(k);
+        sum = sum * step + f.taylor(real, k);
     }
     sum
+}
+
+/// (−1)ᵏ⁺¹ … of x − ln(1 + x): x/(1+x), then (−1/(1+x))ᵏ/k.
+struct XMinusLn1p;
+
+impl Univariate for XMinusLn1p {
+    #[inline(always)]
+    fn taylor<L: Lane>(&self, x: L, k: usize) -> L {
+        let inverse = L::splat(1.0) / (L::splat(1.0) + x);
+        match k {
+            0 => x.x_minus_ln_1p(),
+            1 => x * inverse,
+            2 => L::splat(0.5) * inverse * inverse,
+            k => {
+                let mut power = L::splat(1.0);
+                for _ in 0..k {
+                    power = -(power * inverse);
+                }
+                power * L::splat(1.0 / k as f64)
+            }
+        }
+    }
 }
 
 /// x − ln(1 + x), without cancellation in value or derivatives: the volumetric part of most rubber laws.
 ///
 /// ```math
-/// x - \ln(1+x) = x t - 2 t^3 \left(\tfrac13 + \tfrac{t^2}{5} + \tfrac{t^4}{7} + \dots\right), \qquad t = \frac{x}{2 + x}
+/// x - \ln(1+x) = \frac{x^2}{2} - s\Bigl(\frac{x^2}{2} + \frac{2}{3}s^2 + \frac{2}{5}s^4 + \dots\Bigr), \qquad s = \frac{x}{2 + x}
 /// ```
 ///
-/// (the series of 2 artanh t = ln(1+x)); its derivative is x/(1+x). NaN where 1 + x is negative.
+/// near 0; its derivative is x/(1+x). NaN where 1 + x is negative.
 ///
 /// ```
 /// // the naive form has no correct digit here
 /// assert_eq!(hyperrod::scalar::x_minus_ln_1p(1e-12), 5e-25 * (1.0 - 2e-12 / 3.0));
 /// ```
-#[inline]
+#[inline(always)]
 pub fn x_minus_ln_1p<D: Scalar>(x: D) -> D {
-    let r = x.re();
-    let inverse = 1.0 / (1.0 + r);
-    from_taylor(x, |k| match k {
-        0 => real_x_minus_ln_1p(r),
-        1 => r * inverse,
-        k => (-inverse).powi(k as i32) / k as f64,
-    })
-}
-
-/// Eleven terms: for |x| ≤ 1/4, t² ≤ 1/49 and the first one left out is below 1e-18 of the sum.
-fn real_x_minus_ln_1p(x: f64) -> f64 {
-    if x.abs() > 0.25 {
-        return x - x.ln_1p();
-    }
-    let t = x / (2.0 + x);
-    let t_squared = t * t;
-    let series = (0..11).rev().fold(0.0, |sum, k| sum * t_squared + 1.0 / (2 * k + 3) as f64);
-    x * t - 2.0 * t * t_squared * series
+    x.apply(&XMinusLn1p)
 }

@@ -45,11 +45,7 @@ impl Affine {
         let mut points = Points::default();
         let mut rates = PointRates::default();
         for (x, y, w) in rule.iter() {
-            let image = [
-                a * x + b * y + self.shift[0],
-                c * x + d * y + self.shift[1],
-                determinant * w,
-            ];
+            let image = [a * x + b * y + self.shift[0], c * x + d * y + self.shift[1], determinant * w];
             points.x.push(image[0].re);
             points.y.push(image[1].re);
             points.weight.push(image[2].re);

@@ -1,6 +1,6 @@
+use super::CrossSection;
 use super::geometry::{AreaMoments, Geometry};
 use super::shape::Shape;
-use super::CrossSection;
 use crate::error::Result;
 use crate::lie::Strain;
 use crate::material::{Material, Points, Request, Response, Station};

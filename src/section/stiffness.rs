@@ -36,11 +36,7 @@ impl Stiffness {
                 let asymmetry = (k[(i, j)] - k[(j, i)]).abs();
                 if asymmetry > 1e-12 * (k[(i, i)] * k[(j, j)]).abs().sqrt() {
                     let requirement = "symmetric";
-                    return Err(Error::Invalid {
-                        quantity: "asymmetry of K",
-                        value: asymmetry,
-                        requirement,
-                    });
+                    return Err(Error::Invalid { quantity: "asymmetry of K", value: asymmetry, requirement });
                 }
             }
         }

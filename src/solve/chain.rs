@@ -81,8 +81,8 @@ fn end_row(rows: &EndRows, r: usize) -> Row {
 /// Eliminates the first 12 columns; the first 12 rows become the pivot rows. `None` where no pivot is left.
 fn eliminate(rows: &mut [Row]) -> Option<()> {
     for column in 0..12 {
-        let pivot = (column..rows.len())
-            .max_by(|&p, &q| rows[p][column].abs().total_cmp(&rows[q][column].abs()))?;
+        let pivot =
+            (column..rows.len()).max_by(|&p, &q| rows[p][column].abs().total_cmp(&rows[q][column].abs()))?;
         if !(rows[pivot][column].abs() > f64::MIN_POSITIVE && rows[pivot][column].is_finite()) {
             return None;
         }

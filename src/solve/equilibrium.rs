@@ -293,10 +293,8 @@ impl<const S: usize> Condensed<S> {
     pub(crate) fn new(element: &Linearisation<S>, scale: &Scale) -> Option<Self> {
         let strain = solve_stages(element)?;
         let part = |k: usize, column: usize| strain[k].fixed_view::<6, 6>(0, column).into_owned();
-        let mut t = [
-            [element.end_adjoint, Matrix6::zeros()],
-            [element.wrench_from_zeta, element.wrench_from_wrench],
-        ];
+        let mut t =
+            [[element.end_adjoint, Matrix6::zeros()], [element.wrench_from_zeta, element.wrench_from_wrench]];
         let mut c = [SVector::<f64, 6>::zeros(); 2];
         for k in 0..S {
             let blocks = [element.end_strain[k], element.wrench_from_strain[k]];
@@ -314,9 +312,7 @@ impl<const S: usize> Condensed<S> {
         let (zeta, wrench) = (zeta.to_vector(), wrench.to_vector());
         std::array::from_fn(|k| {
             let x = &self.strain[k];
-            let step = x.fixed_view::<6, 6>(0, 0) * zeta
-                + x.fixed_view::<6, 6>(0, 6) * wrench
-                + x.column(12);
+            let step = x.fixed_view::<6, 6>(0, 0) * zeta + x.fixed_view::<6, 6>(0, 6) * wrench + x.column(12);
             Strain::from_vector(&step)
         })
     }
@@ -347,8 +343,7 @@ fn solve_stages<const S: usize>(element: &Linearisation<S>) -> Option<[SMatrix<f
     }
     let width = n + 13;
     for column in 0..n {
-        let pivot =
-            (column..n).max_by(|&p, &q| rows[p][column].abs().total_cmp(&rows[q][column].abs()))?;
+        let pivot = (column..n).max_by(|&p, &q| rows[p][column].abs().total_cmp(&rows[q][column].abs()))?;
         if !(rows[pivot][column].abs() > f64::MIN_POSITIVE && rows[pivot][column].is_finite()) {
             return None;
         }

@@ -14,7 +14,9 @@ pub enum Reason {
     #[error("the rod cannot be evaluated at its reference shape: {0}")]
     Start(Error),
     /// No step, however short, leads to an admissible state.
-    #[error("no admissible step: even {fraction:.1e} of the Newton step of iteration {iteration} fails ({error})")]
+    #[error(
+        "no admissible step: even {fraction:.1e} of the Newton step of iteration {iteration} fails ({error})"
+    )]
     NoAdmissibleStep {
         /// Iteration, counted from 0.
         iteration: usize,
@@ -24,7 +26,9 @@ pub enum Reason {
         error: Error,
     },
     /// The tangent has no inverse: a limit point, or a mechanism.
-    #[error("the tangent of iteration {iteration} is singular ({error}): a limit point of the load, or a rod that is free to move")]
+    #[error(
+        "the tangent of iteration {iteration} is singular ({error}): a limit point of the load, or a rod that is free to move"
+    )]
     Singular {
         /// Iteration, counted from 0.
         iteration: usize,
@@ -32,7 +36,9 @@ pub enum Reason {
         error: Error,
     },
     /// The iteration limit was reached.
-    #[error("no convergence in {limit} iterations: last step {step:.3e}, asked {tolerance:.1e}; apply the load in steps, or raise the limit")]
+    #[error(
+        "no convergence in {limit} iterations: last step {step:.3e}, asked {tolerance:.1e}; apply the load in steps, or raise the limit"
+    )]
     IterationLimit {
         /// The limit.
         limit: usize,

@@ -141,15 +141,10 @@ fn newton_step<B: Elastic, const S: usize>(
     state: &Configuration<S>,
     scale: &Scale,
 ) -> Result<Step<S>> {
-    let elements: Option<Vec<_>> = mesh
-        .linearise(strains, state)
-        .iter()
-        .map(|element| Condensed::new(element, scale))
-        .collect();
-    let elements = elements.ok_or(Error::Singular {
-        matrix: "tangent of an element",
-        s: 0.5 * mesh.rod.body().length(),
-    })?;
+    let elements: Option<Vec<_>> =
+        mesh.linearise(strains, state).iter().map(|element| Condensed::new(element, scale)).collect();
+    let elements = elements
+        .ok_or(Error::Singular { matrix: "tangent of an element", s: 0.5 * mesh.rod.body().length() })?;
     let mut left = EndRows { matrix: SMatrix::zeros(), rhs: SVector::zeros() };
     left.matrix.fixed_view_mut::<6, 6>(0, 0).fill_with_identity();
     let right = state.tip_rows(scale);
@@ -176,11 +171,7 @@ fn newton_step<B: Elastic, const S: usize>(
     Ok(step)
 }
 
-fn moved<const S: usize>(
-    strains: &StageStrains<S>,
-    step: &Step<S>,
-    fraction: f64,
-) -> StageStrains<S> {
+fn moved<const S: usize>(strains: &StageStrains<S>, step: &Step<S>, fraction: f64) -> StageStrains<S> {
     strains
         .iter()
         .zip(&step.strains)

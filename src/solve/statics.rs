@@ -113,16 +113,12 @@ impl Statics {
         observer: &mut dyn FnMut(&Iteration),
     ) -> Result<StaticSolution, Box<Failure>> {
         let start = Instant::now();
-        let mut newton =
-            Newton { max_iterations: self.max_iterations, tolerance: self.tolerance, observer };
+        let mut newton = Newton { max_iterations: self.max_iterations, tolerance: self.tolerance, observer };
         let coarse_mesh = Mesh::<B, S>::new(rod, self.elements.div_ceil(2));
         let at_rest = vec![[Strain::zero(); S]; coarse_mesh.elements];
         let coarse = newton.solve(&coarse_mesh, at_rest);
-        let mut report = Report {
-            iterations: coarse.iterations.clone(),
-            residual: coarse.residual,
-            ..Report::default()
-        };
+        let mut report =
+            Report { iterations: coarse.iterations.clone(), residual: coarse.residual, ..Report::default() };
         if coarse.failure.is_some() {
             report.elapsed = start.elapsed();
             return Err(failed(&coarse_mesh, coarse, report));
@@ -156,10 +152,7 @@ fn failed<B: Elastic, const S: usize>(
     outcome: Outcome<S>,
     report: Report,
 ) -> Box<Failure> {
-    let last = outcome
-        .state
-        .as_ref()
-        .map(|state| describe(mesh, &outcome.strains, state, report.clone()));
+    let last = outcome.state.as_ref().map(|state| describe(mesh, &outcome.strains, state, report.clone()));
     let reason = outcome.failure.unwrap_or(Reason::IterationLimit {
         limit: outcome.iterations.len(),
         step: f64::NAN,

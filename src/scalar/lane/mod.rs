@@ -1,0 +1,224 @@
+//! Several real numbers worked on at once: one `f64`, or as many as the machine's vector registers hold.
+
+mod elementary;
+mod portable;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+use std::fmt::Debug;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+pub use portable::Portable;
+
+/// A fixed number of real numbers with lane-wise arithmetic.
+///
+/// `f64` is the one-lane case; [`Portable`] works everywhere; the vector types of the machine are chosen at run time by
+/// [`dispatch`].
+pub trait Lane:
+    Copy
+    + Debug
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// How many numbers.
+    const LANES: usize;
+
+    /// The same number in every lane.
+    fn splat(value: f64) -> Self;
+
+    /// The first [`LANES`](Self::LANES) numbers of a slice, which must have as many.
+    fn load(slice: &[f64]) -> Self;
+
+    /// The number in lane `i`.
+    fn lane(self, i: usize) -> f64;
+
+    /// self × a + b, fused where the machine does so.
+    fn mul_add(self, a: Self, b: Self) -> Self;
+
+    /// √ of each lane.
+    fn sqrt(self) -> Self;
+
+    /// Per lane `yes` where `self < bound`, `no` elsewhere (also for NaN).
+    fn select_lt(self, bound: Self, yes: Self, no: Self) -> Self;
+
+    /// For a positive normal number, (m, k) with m ∈ [√½, √2) and x = m 2ᵏ.
+    fn split_exponent(self) -> (Self, Self);
+
+    /// x 2ᵏ for an integral k with |k| ≤ 1022.
+    fn scale_by_power_of_two(self, k: Self) -> Self;
+
+    /// The sum over the lanes, in a fixed order.
+    #[inline(always)]
+    fn sum(self) -> f64 {
+        (0..Self::LANES).fold(0.0, |sum, i| sum + self.lane(i))
+    }
+
+    /// The smallest number, passing over NaN.
+    #[inline(always)]
+    fn min_lane(self) -> f64 {
+        let mut smallest = f64::INFINITY;
+        for i in 0..Self::LANES {
+            smallest = smallest.min(self.lane(i));
+        }
+        smallest
+    }
+
+    /// The number of lane `i` in every lane.
+    #[inline(always)]
+    fn spread(self, i: usize) -> Self {
+        Self::splat(self.lane(i))
+    }
+
+    /// The number of lane `i` in lane 0, zero in the others.
+    #[inline(always)]
+    fn isolate(self, i: usize) -> Self {
+        let mut values = [0.0; MAX_LANES];
+        values[0] = self.lane(i);
+        Self::load(&values)
+    }
+
+    /// A function of each lane on its own: what has no vector form.
+    #[inline(always)]
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        let mut values = [0.0; MAX_LANES];
+        for (i, value) in values.iter_mut().enumerate().take(Self::LANES) {
+            *value = f(self.lane(i));
+        }
+        Self::load(&values)
+    }
+
+    /// As [`map`](Self::map), of two numbers.
+    #[inline(always)]
+    fn zip_map(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let mut values = [0.0; MAX_LANES];
+        for (i, value) in values.iter_mut().enumerate().take(Self::LANES) {
+            *value = f(self.lane(i), other.lane(i));
+        }
+        Self::load(&values)
+    }
+
+    /// |x|.
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.select_lt(Self::splat(0.0), -self, self)
+    }
+
+    /// Nearest integer below 2⁵¹ in size.
+    #[inline(always)]
+    fn round(self) -> Self {
+        let shift = Self::splat(6755399441055744.0); // 1.5 × 2⁵²: adding it leaves no fraction bits
+        (self + shift) - shift
+    }
+
+    /// Σ c_k x^k by Horner's rule, constant term first.
+    #[inline(always)]
+    fn polynomial(self, coefficients: &[f64]) -> Self {
+        let mut sum = Self::splat(0.0);
+        for &c in coefficients.iter().rev() {
+            sum = sum.mul_add(self, Self::splat(c));
+        }
+        sum
+    }
+
+    /// ln(1 + x), within 2 ulp; exact in the smallest x. NaN below −1, −∞ at −1.
+    #[inline(always)]
+    fn ln_1p(self) -> Self {
+        elementary::ln_1p(self)
+    }
+
+    /// x − ln(1 + x), within 4 ulp of itself however small x is.
+    #[inline(always)]
+    fn x_minus_ln_1p(self) -> Self {
+        elementary::x_minus_ln_1p(self)
+    }
+
+    /// ln x, within 2 ulp for x outside (½, 2), and absolutely 2⁻⁵³ inside.
+    #[inline(always)]
+    fn ln(self) -> Self {
+        elementary::ln(self)
+    }
+
+    /// eˣ, within 2 ulp. 0 below −708, ∞ above 709.
+    #[inline(always)]
+    fn exp(self) -> Self {
+        elementary::exp(self)
+    }
+
+    /// eˣ − 1, within 3 ulp, however small x is.
+    #[inline(always)]
+    fn exp_m1(self) -> Self {
+        elementary::exp_m1(self)
+    }
+
+    /// xᵖ for x ≥ 0, with a relative error of (2 + |p ln x|) ulp.
+    #[inline(always)]
+    fn powf(self, p: f64) -> Self {
+        elementary::powf(self, p)
+    }
+}
+
+/// The most lanes any [`Lane`] has.
+pub(crate) const MAX_LANES: usize = 8;
+
+impl Lane for f64 {
+    const LANES: usize = 1;
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn load(slice: &[f64]) -> Self {
+        slice[0]
+    }
+    #[inline(always)]
+    fn lane(self, _i: usize) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        self * a + b // not f64::mul_add: without the FMA feature that is a library call
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+    #[inline(always)]
+    fn select_lt(self, bound: Self, yes: Self, no: Self) -> Self {
+        if self < bound { yes } else { no }
+    }
+    #[inline(always)]
+    fn split_exponent(self) -> (Self, Self) {
+        portable::split_exponent(self)
+    }
+    #[inline(always)]
+    fn scale_by_power_of_two(self, k: Self) -> Self {
+        self * portable::power_of_two(k)
+    }
+}
+
+/// A computation written once for any [`Lane`], to be run on the best one the machine has.
+pub(crate) trait Kernel {
+    type Output;
+
+    /// Implementations are `#[inline(always)]`, so that the body is compiled with the instructions of its caller.
+    fn run<L: Lane>(self) -> Self::Output;
+}
+
+/// Runs a kernel on the widest vectors of this machine: AVX-512, else AVX2 with FMA, else what every x86-64 (or other) machine has.
+///
+/// The choice is made at run time and is the same for every call, so a default build is as fast as one with `RUSTFLAGS`, and
+/// results do not change from call to call.
+#[inline]
+pub(crate) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+    #[cfg(target_arch = "x86_64")]
+    return x86::dispatch(kernel);
+    #[cfg(not(target_arch = "x86_64"))]
+    return kernel.run::<Portable>();
+}

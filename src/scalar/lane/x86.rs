@@ -1,0 +1,222 @@
+//! The vector registers of x86-64, chosen at run time. The one file of the crate with `unsafe` in it.
+//!
+//! Soundness: a value of [`Avx2`] or [`Avx512`] is made by [`Lane::splat`] or [`Lane::load`] alone, and those are reached only inside
+//! [`dispatch`], after the machine was asked whether it has the instructions. Neither type can be named outside this module.
+#![allow(unsafe_code)]
+
+use std::arch::x86_64::*;
+use std::fmt;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::portable::{HALF_SQRT_2_BITS, MANTISSA};
+use super::{Kernel, Lane, Portable};
+
+/// Four numbers in an AVX register.
+#[derive(Clone, Copy)]
+struct Avx2(__m256d);
+
+/// Eight numbers in an AVX-512 register.
+#[derive(Clone, Copy)]
+struct Avx512(__m512d);
+
+#[inline]
+pub(super) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+    if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+        // SAFETY: the features were just detected.
+        return unsafe { run_avx512(kernel) };
+    }
+    if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+        // SAFETY: the features were just detected.
+        return unsafe { run_avx2(kernel) };
+    }
+    kernel.run::<Portable>()
+}
+
+#[target_feature(enable = "avx512f,avx512dq,fma")]
+fn run_avx512<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Avx512>()
+}
+
+#[target_feature(enable = "avx2,fma")]
+fn run_avx2<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Avx2>()
+}
+
+macro_rules! operators {
+    ($lane:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $zero:ident, $splat:ident) => {
+        operators!(@binary $lane, Add, add, $add);
+        operators!(@binary $lane, Sub, sub, $sub);
+        operators!(@binary $lane, Mul, mul, $mul);
+        operators!(@binary $lane, Div, div, $div);
+
+        impl Neg for $lane {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                // SAFETY: see the module; −0 − x = −x for every x, zero included.
+                unsafe { Self($sub($splat(-0.0), self.0)) }
+            }
+        }
+
+        impl fmt::Debug for $lane {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.debug_list().entries((0..Self::LANES).map(|i| self.lane(i))).finish()
+            }
+        }
+    };
+    (@binary $lane:ident, $trait:ident, $method:ident, $intrinsic:ident) => {
+        impl $trait for $lane {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                // SAFETY: see the module.
+                unsafe { Self($intrinsic(self.0, other.0)) }
+            }
+        }
+    };
+}
+
+operators!(
+    Avx2,
+    _mm256_add_pd,
+    _mm256_sub_pd,
+    _mm256_mul_pd,
+    _mm256_div_pd,
+    _mm256_setzero_pd,
+    _mm256_set1_pd
+);
+operators!(
+    Avx512,
+    _mm512_add_pd,
+    _mm512_sub_pd,
+    _mm512_mul_pd,
+    _mm512_div_pd,
+    _mm512_setzero_pd,
+    _mm512_set1_pd
+);
+
+/// 2⁵² as bits and as a number: or-ing a small integer into the bits and subtracting the number converts it to floating point.
+const TWO_52_BITS: i64 = 0x4330_0000_0000_0000;
+const TWO_52: f64 = 4503599627370496.0;
+
+impl Lane for Avx2 {
+    const LANES: usize = 4;
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        // SAFETY: see the module.
+        unsafe { Self(_mm256_set1_pd(value)) }
+    }
+    #[inline(always)]
+    fn load(slice: &[f64]) -> Self {
+        let slice = &slice[..Self::LANES];
+        // SAFETY: the slice has four numbers; unaligned loads are allowed.
+        unsafe { Self(_mm256_loadu_pd(slice.as_ptr())) }
+    }
+    #[inline(always)]
+    fn lane(self, i: usize) -> f64 {
+        let mut values = [0.0; 4];
+        // SAFETY: the array has four numbers.
+        unsafe { _mm256_storeu_pd(values.as_mut_ptr(), self.0) };
+        values[i]
+    }
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        // SAFETY: see the module.
+        unsafe { Self(_mm256_fmadd_pd(self.0, a.0, b.0)) }
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: see the module.
+        unsafe { Self(_mm256_sqrt_pd(self.0)) }
+    }
+    #[inline(always)]
+    fn select_lt(self, bound: Self, yes: Self, no: Self) -> Self {
+        // SAFETY: see the module.
+        unsafe { Self(_mm256_blendv_pd(no.0, yes.0, _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, bound.0))) }
+    }
+    #[inline(always)]
+    fn split_exponent(self) -> (Self, Self) {
+        // SAFETY: see the module. The exponent is biased by 1024 to stay positive through the logical shift.
+        unsafe {
+            let half_sqrt_2 = _mm256_set1_epi64x(HALF_SQRT_2_BITS as i64);
+            let shifted = _mm256_sub_epi64(_mm256_castpd_si256(self.0), half_sqrt_2);
+            let mantissa = _mm256_and_si256(shifted, _mm256_set1_epi64x(MANTISSA as i64));
+            let m = _mm256_castsi256_pd(_mm256_add_epi64(mantissa, half_sqrt_2));
+            let biased = _mm256_add_epi64(shifted, _mm256_set1_epi64x(1024_i64 << 52));
+            let field = _mm256_or_si256(_mm256_srli_epi64::<52>(biased), _mm256_set1_epi64x(TWO_52_BITS));
+            let k = _mm256_sub_pd(_mm256_castsi256_pd(field), _mm256_set1_pd(TWO_52 + 1024.0));
+            (Self(m), Self(k))
+        }
+    }
+    #[inline(always)]
+    fn scale_by_power_of_two(self, k: Self) -> Self {
+        // SAFETY: see the module. k + 1023 + 2⁵² has k + 1023 in its lowest bits, shifted into the exponent field.
+        unsafe {
+            let field = _mm256_castpd_si256(_mm256_add_pd(k.0, _mm256_set1_pd(TWO_52 + 1023.0)));
+            Self(_mm256_mul_pd(self.0, _mm256_castsi256_pd(_mm256_slli_epi64::<52>(field))))
+        }
+    }
+}
+
+impl Lane for Avx512 {
+    const LANES: usize = 8;
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        // SAFETY: see the module.
+        unsafe { Self(_mm512_set1_pd(value)) }
+    }
+    #[inline(always)]
+    fn load(slice: &[f64]) -> Self {
+        let slice = &slice[..Self::LANES];
+        // SAFETY: the slice has eight numbers; unaligned loads are allowed.
+        unsafe { Self(_mm512_loadu_pd(slice.as_ptr())) }
+    }
+    #[inline(always)]
+    fn lane(self, i: usize) -> f64 {
+        let mut values = [0.0; 8];
+        // SAFETY: the array has eight numbers.
+        unsafe { _mm512_storeu_pd(values.as_mut_ptr(), self.0) };
+        values[i]
+    }
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        // SAFETY: see the module.
+        unsafe { Self(_mm512_fmadd_pd(self.0, a.0, b.0)) }
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: see the module.
+        unsafe { Self(_mm512_sqrt_pd(self.0)) }
+    }
+    #[inline(always)]
+    fn select_lt(self, bound: Self, yes: Self, no: Self) -> Self {
+        // SAFETY: see the module.
+        unsafe {
+            let mask = _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, bound.0);
+            Self(_mm512_mask_blend_pd(mask, no.0, yes.0))
+        }
+    }
+    #[inline(always)]
+    fn split_exponent(self) -> (Self, Self) {
+        // SAFETY: see the module.
+        unsafe {
+            let half_sqrt_2 = _mm512_set1_epi64(HALF_SQRT_2_BITS as i64);
+            let shifted = _mm512_sub_epi64(_mm512_castpd_si512(self.0), half_sqrt_2);
+            let mantissa = _mm512_and_si512(shifted, _mm512_set1_epi64(MANTISSA as i64));
+            let m = _mm512_castsi512_pd(_mm512_add_epi64(mantissa, half_sqrt_2));
+            (Self(m), Self(_mm512_cvtepi64_pd(_mm512_srai_epi64::<52>(shifted))))
+        }
+    }
+    #[inline(always)]
+    fn scale_by_power_of_two(self, k: Self) -> Self {
+        // SAFETY: see the module.
+        unsafe { Self(_mm512_scalef_pd(self.0, k.0)) }
+    }
+    #[inline(always)]
+    fn sum(self) -> f64 {
+        // SAFETY: see the module. Fixed order: halves, quarters, pairs.
+        unsafe { _mm512_reduce_add_pd(self.0) }
+    }
+}
