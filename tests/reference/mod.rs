@@ -108,9 +108,8 @@ impl StaticCase {
         }
         let body = body.with_mass_per_length(1.0).unwrap();
         let base = Pose::new(rotation(self.base.q_wxyz), Vector3::from(self.base.p));
-        let mut rod = Rod::clamped(body, base).with_tip_load(
-            DeadWrench::new(self.tip_moment_dead.into(), self.tip_force_dead.into()).unwrap(),
-        );
+        let mut rod = Rod::clamped(body, base)
+            .with_tip_load(DeadWrench::new(self.tip_moment_dead.into(), self.tip_force_dead.into()).unwrap());
         let weight = Vector3::from(self.distributed_force_dead_per_ref_length);
         if weight != Vector3::zeros() {
             rod = rod.with_load(Gravity::new(weight).unwrap());
@@ -126,10 +125,7 @@ impl StaticCase {
             .iter()
             .flat_map(|st| {
                 let [mx, my, mz, nx, ny, nz] = st.psi;
-                [
-                    Vector3::new(nx, ny, nz).norm(),
-                    Vector3::new(mx, my, mz).norm() / self.length,
-                ]
+                [Vector3::new(nx, ny, nz).norm(), Vector3::new(mx, my, mz).norm() / self.length]
             })
             .fold(0.0, f64::max);
         let mut errors = Errors::default();
@@ -145,7 +141,8 @@ impl StaticCase {
             let w = node.wrench - psi;
             errors.position = errors.position.max(p.norm() / self.length);
             errors.rotation = errors.rotation.max(r.norm());
-            errors.wrench = errors.wrench.max(w.force.norm() / force).max(w.moment.norm() / (force * self.length));
+            errors.wrench =
+                errors.wrench.max(w.force.norm() / force).max(w.moment.norm() / (force * self.length));
             if let Some(dxi) = station.dxi {
                 let d = node.strain - hyperrod::Strain::from_array(dxi);
                 errors.strain = errors.strain.max(d.linear.norm()).max(d.angular.norm() * self.length);
