@@ -103,6 +103,27 @@ fn a_reference_that_does_not_go_forward_is_refused() {
     refused(Body::new(1.0, stiffness()).unwrap().with_reference_strain(xi), &["reference strain", "finite"]);
 }
 
+/// A reference given as a function of s can only be checked where the solve evaluates it.
+#[test]
+fn a_varying_reference_that_is_not_defined_fails_where_it_is_not() {
+    for (at_fault, parts) in [(f64::NAN, ["omega_x", "NaN"]), (-1.0, ["nu_z", "-1"])] {
+        let body = Body::new(2.0, stiffness()).unwrap().with_varying_reference(move |s| {
+            let mut xi = Twist::straight();
+            if s.re > 1.0 && at_fault.is_nan() {
+                xi.angular.x = s * at_fault;
+            } else if s.re > 1.0 {
+                xi.linear.z = xi.linear.z * at_fault;
+            }
+            xi
+        });
+        let failure = Statics::default().solve(&Rod::clamped(body, Pose::identity())).unwrap_err();
+        let Reason::Start(Error::InvalidAt { s, .. }) = failure.reason else { panic!("{failure}") };
+        assert!(s > 1.0 && s < 1.2, "{failure}");
+        says(&failure, &parts);
+        says(&failure, &["reference strain", &format!("s = {s} m")]);
+    }
+}
+
 #[test]
 fn a_stiffness_that_is_not_symmetric_positive_definite_is_refused() {
     refused(Stiffness::diagonal([1.0, 1.0, -0.8, 1.0, 1.0, 1.0]), &["GJ", "-0.8"]);
@@ -112,6 +133,8 @@ fn a_stiffness_that_is_not_symmetric_positive_definite_is_refused() {
     refused(Stiffness::new(k), &["smallest eigenvalue of K", "is -1"]);
     k[(1, 0)] = 1.5;
     refused(Stiffness::new(k), &["asymmetry of K", "0.5"]);
+    refused(Stiffness::new(Matrix6::from_diagonal_element(f64::NAN)), &["entry of K", "NaN"]);
+    refused(Stiffness::new(Matrix6::from_diagonal_element(f64::INFINITY)), &["entry of K", "inf"]);
 }
 
 #[test]
