@@ -87,6 +87,8 @@ impl<C: CrossSection, M: Send + Sync> Body<C, M> {
     }
 
     /// The same with a reference strain ξ*(s) that varies along the rod, written over [`Dual64`] so that ξ*′ comes with it.
+    ///
+    /// A solve fails where it is not finite, or its axial component not positive.
     pub fn with_varying_reference(
         self,
         xi: impl Fn(Dual64) -> Twist<Dual64> + Send + Sync + 'static,
@@ -135,6 +137,7 @@ impl<C: CrossSection, M: Send + Sync> Elastic for Body<C, M> {
     }
 
     fn respond(&self, s: f64, strain: &Strain, request: Request) -> Result<Response> {
-        self.section.respond(&self.station(s), strain, request)
+        let station = Station { s, reference: self.reference.checked(s)? };
+        self.section.respond(&station, strain, request)
     }
 }

@@ -1,6 +1,7 @@
 use num_dual::Dual64;
 use std::sync::Arc;
 
+use crate::error::{Error, Result};
 use crate::lie::Twist;
 use crate::material::Reference;
 
@@ -37,6 +38,29 @@ impl ReferenceShape {
                 }
             }
         }
+    }
+
+    /// As [`at`](Self::at), refused where a function of s gives no strain that a reference can have.
+    pub(super) fn checked(&self, s: f64) -> Result<Reference> {
+        const NAMES: [&str; 6] = [
+            "omega_x of the reference strain",
+            "omega_y of the reference strain",
+            "omega_z of the reference strain",
+            "nu_x of the reference strain",
+            "nu_y of the reference strain",
+            "nu_z of the reference strain",
+        ];
+        let reference = self.at(s);
+        let invalid = |quantity, value, requirement| Err(Error::InvalidAt { quantity, value, requirement, s });
+        let values = reference.twist.to_array().into_iter().zip(reference.rate.to_array());
+        for ((value, rate), quantity) in values.zip(NAMES) {
+            if !(value.is_finite() && rate.is_finite()) {
+                let value = if value.is_finite() { rate } else { value };
+                return invalid(quantity, value, "finite, with a finite slope");
+            }
+        }
+        let stretch = reference.twist.linear.z;
+        if stretch > 0.0 { Ok(reference) } else { invalid(NAMES[5], stretch, "positive") }
     }
 }
 

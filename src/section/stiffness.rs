@@ -29,8 +29,11 @@ impl Stiffness {
     /// From the full matrix, rows and columns (angular, linear).
     ///
     /// # Errors
-    /// If K is not symmetric (to 1e-12 of its diagonal) or not positive definite.
+    /// If K is not finite, not symmetric (to 1e-12 of its diagonal) or not positive definite.
     pub fn new(k: Matrix6<f64>) -> Result<Self> {
+        if let Some(&value) = k.iter().find(|v| !v.is_finite()) {
+            return Err(Error::Invalid { quantity: "entry of K", value, requirement: "finite" });
+        }
         for i in 0..6 {
             for j in 0..i {
                 let asymmetry = (k[(i, j)] - k[(j, i)]).abs();

@@ -371,3 +371,6 @@ fn solve_stages<const S: usize>(element: &Linearisation<S>) -> Option<[SMatrix<f
     }
     Some(std::array::from_fn(|k| SMatrix::from_fn(|r, c| rows[6 * k + r][n + c])))
 }
+
+#[cfg(test)]
+mod tests;
