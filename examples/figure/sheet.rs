@@ -78,7 +78,7 @@ impl Sheet<'_> {
         let v = [VPos::Top, VPos::Center, VPos::Bottom][(v + 1) as usize];
         let font = ("sans-serif", size * FINE).into_font().transform(turn);
         let style = TextStyle::from(font).color(&INK).pos(Pos::new(h, v));
-        Ok(self.area.draw_text(text, &style, fine(&at).into())?)
+        Ok(self.area.draw_text(text, &style, fine(&at))?)
     }
 }
 
