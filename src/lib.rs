@@ -1,9 +1,182 @@
-//! hyperrod
+//! Soft rods from one function: write a strain energy density, get the wrench, its exact tangent and the solved rod.
+//!
+//! hyperrod = **hyper**-dual numbers + **hyper**elastic materials + **rods**. A law is written once, over any dual number. Its
+//! derivatives, summed over the cross-section, are the rod's internal wrench and tangent; with them a geometrically exact
+//! (Cosserat) rod is solved by Newton's method.
+//!
+//! ```
+//! use hyperrod::load::{DeadWrench, Gravity};
+//! use hyperrod::section::{Circle, Linear, Section};
+//! use hyperrod::{Body, Pose, Rod, Statics, isotropic};
+//! use nalgebra::vector;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let (c10, d1) = (100e3, 200e3); // Pa; E = 2 (c10 + d1) and G = 2 c10 on a rigid section
+//! let silicone = isotropic!([c10: f64, d1: f64] degree 2; |i, _at| {
+//!     // c10 (I₁ − 3) + d1 (J − 1)², with the pressure that makes rest stress-free
+//!     i.i1_excess() * c10 + i.j() * i.j() * d1
+//! });
+//! let taper = Linear { from: 0.012, to: 0.006, length: 0.25 };
+//! let section = Section::new(Circle::new(taper), silicone)?;
+//! let arm = Body::new(0.25, section)?.with_density(1070.0)?;
+//! let rod = Rod::clamped(arm, Pose::identity()) // along +Z, so gravity along −X bends it
+//!     .with_load(Gravity::new(vector![-9.81, 0.0, 0.0])?)
+//!     .with_tip_load(DeadWrench::force(vector![-0.2, 0.0, 0.0])?);
+//!
+//! let solution = Statics::default().solve(&rod)?;
+//! assert!(solution.tip().pose.position.x < -0.15);
+//! assert!(solution.report().error.position < 1e-6); // m, estimated
+//! # Ok(()) }
+//! ```
+//!
+//! # From the energy to the rod
+//!
+//! The strain energy of the rod is the integral of u over its volume, and everything else follows by differentiation:
+//!
+//! ```math
+//! \Psi(s, \Delta\xi) = \int \nabla_{\Delta\xi} u\,dA, \qquad
+//! \frac{\partial\Psi}{\partial\Delta\xi} = \int \nabla^2_{\Delta\xi} u\,dA, \qquad
+//! \Psi' = \frac{\partial}{\partial s}\int \nabla_{\Delta\xi} u\,dA \Big|_{\Delta\xi}
+//! ```
+//!
+//! | piece | in words | where |
+//! |---|---|---|
+//! | u | energy density, the one function you write | [`material`] |
+//! | Ψ | internal wrench | [`CrossSection::wrench`](section::CrossSection::wrench) |
+//! | ∂Ψ/∂Δξ | tangent, for Newton's method | [`CrossSection::tangent`](section::CrossSection::tangent) |
+//! | Ψ′ | what taper, twist and grading add | [`CrossSection::wrench_rate`](section::CrossSection::wrench_rate) |
+//!
+//! # Conventions
+//!
+//! * **Order** (angular, linear): ξ = (ω, ν), Λ = (m, n). Matrices have their rows and columns in this order.
+//! * **Body frame**: strains, wrenches and loads are components in the frame of the section they belong to. The
+//!   [`Pose`] g = (R, p) takes that frame to space, g′ = g ξ^.
+//! * The rod lies along **e₃** of its frame: a straight rod at rest has ξ* = (0, 0, 0, 0, 0, 1). Laws see
+//!   **Δξ = ξ − ξ\***, a [`Strain`]; ξ itself is a [`Twist`]. They are different types.
+//! * **Λ·ξ is power**: a wrench pairs with a twist component by component. Λ·η is the power of Λ at the velocity η, Ψ·δξ the work
+//!   per length in a change of strain.
+//! * **Balance** of a static rod under the load f̄ = (l, f) per length of the reference, Λ being what the part beyond s does to
+//!   the part before it:
+//!
+//! ```math
+//! \Lambda' = \mathrm{ad}_\xi^{\mathsf T} \Lambda - \bar f, \qquad
+//! m' = -\omega \times m - \nu \times n - l, \qquad
+//! n' = -\omega \times n - f, \qquad
+//! \mathrm{ad}_\xi = \begin{bmatrix} \hat\omega & 0 \\ \hat\nu & \hat\omega \end{bmatrix}
+//! ```
+//!
+//! * A point (x, y) of a **rigid section** has one column of strain, from which all invariants follow as deviations from rest:
+//!
+//! ```math
+//! F = I + \gamma \otimes e_3, \qquad \gamma = \Delta\nu + \Delta\omega \times (x, y, 0) = (a, b, e), \qquad
+//! I_1 - 3 = a^2 + b^2 + e(2+e), \qquad I_2 - 3 = a^2 + b^2 + 2e(2+e), \qquad J - 1 = e
+//! ```
+//!
+//! * **I_x = ∫y² dA, I_y = ∫x² dA**: I_x resists ω_x, the bending about the x axis of the section.
+//! * **SI units** throughout: m, kg, s, N, Pa, rad.
+//!
+//! # Notation
+//!
+//! | symbol | type | meaning | unit |
+//! |---|---|---|---|
+//! | s | `f64` | arc length of the reference | m |
+//! | x, y | [`Point`](material::Point) | coordinates in the section | m |
+//! | g = (R, p) | [`Pose`] | rotation and position of a section | –, m |
+//! | ξ = (ω, ν) | [`Twist`] | strain twist, g′ = g ξ^ | 1/m, – |
+//! | ξ* | [`Reference`](material::Reference) | strain twist at rest, and ξ*′ | 1/m, – |
+//! | Δξ = (Δω, Δν) | [`Strain`] | change of the strain twist from rest | 1/m, – |
+//! | Λ = (m, n), Ψ | [`Wrench`] | internal wrench; Ψ as the law gives it | N m, N |
+//! | u | [`Isotropic`](material::Isotropic), [`Local`](material::Local), [`Sectional`](material::Sectional) | energy density | J/m³ |
+//! | U | [`Response::energy`](material::Response) | energy per length, ∫u dA | J/m |
+//! | ∂Ψ/∂Δξ, K | `Matrix6<f64>` | tangent of a section | N m², N m, N |
+//! | Ψ′ | [`Wrench`] | ∂Ψ/∂s at fixed Δξ | N, N/m |
+//! | γ = (a, b, e) | [`Deformation`](material::Deformation) | third column of F − I | – |
+//! | I₁, I₂, J | [`Invariants`](material::Invariants) | invariants of FᵀF, kept as deviations from rest | – |
+//! | A, I_x, I_y | [`AreaMoments`](section::AreaMoments) | area, ∫y² dA, ∫x² dA | m², m⁴ |
+//! | f̄ = (l, f) | [`Load`](load::Load) | load per length of the reference, body frame | N, N/m |
+//! | ad, Ad, dexp | [`TwistMap`] | 6×6 maps [[A, 0], [B, A]] | |
+//!
+//! # Corrections to the source text
+//!
+//! The theory follows a text on rods with general energies, "More Complex Material and Geometric Properties". Three of its
+//! statements are kept in a corrected form.
+//!
+//! 1. **Its Mooney–Rivlin energy is not free of stress at rest.** The invariants begin with a term linear in J − 1, so
+//!
+//!    ```math
+//!    u = C_1 (I_1 - 3) + C_2 (I_2 - 3), \qquad \Psi(0) = (0, 0, 0,\; 0, 0, (2C_1 + 4C_2) A)
+//!    ```
+//!
+//!    Ψ = K Δξ holds, and then exactly, for the energy with its reference pressure,
+//!
+//!    ```math
+//!    u = C_1 (I_1 - 3) + C_2 (I_2 - 3) - (2C_1 + 4C_2)(J - 1)
+//!    ```
+//!
+//!    [`ReferencePressure`](material::ReferencePressure) makes that of any isotropic law, and
+//!    [`StressFree`](material::StressFree) takes Ψ(0)·Δξ off any material.
+//! 2. **x² and y² are swapped in the bending rows of its matrix.** The fibre strain is e = Δν_z + Δω_x y − Δω_y x, so
+//!
+//!    ```math
+//!    K_{11} = E \int y^2\,dA = E I_x, \qquad K_{22} = E \int x^2\,dA = E I_y
+//!    ```
+//!
+//!    It shows on any section with I_x ≠ I_y, such as a rectangle.
+//! 3. **Its E and G are those of a section that cannot contract.** For Mooney–Rivlin with its reference pressure,
+//!
+//!    ```math
+//!    E_{rigid} = 2C_1 + 4C_2, \qquad E_{rubber} = 6(C_1 + C_2), \qquad G = 2C_1 + 2C_2
+//!    ```
+//!
+//!    where the second is the Young's modulus of the incompressible rubber itself. A compressible law on a rigid section likewise has the axial
+//!    modulus λ + 2μ instead of E = μ(3λ + 2μ)/(λ + μ). On a rigid section, choose the constants for the moduli the rod shall have.
+//!
+//! # Layers
+//!
+//! A module uses only those above it in this list.
+//!
+//! | module | what lives there |
+//! |---|---|
+//! | [`error`] | one error type with structured fields |
+//! | [`scalar`] | [`Scalar`], the bound a law is written over, and primitives that keep the digits of small strains |
+//! | [`lie`] | SO(3) and SE(3): exp, log, Ad, ad, dexp; twists, strains and wrenches |
+//! | [`quadrature`] | rules on lines and plane shapes, exact to a stated degree, with positive weights |
+//! | [`material`] | energy densities and their derivatives at a point and over a section |
+//! | [`section`] | shapes that may vary along s; Δξ to U, Ψ, ∂Ψ/∂Δξ and Ψ′ |
+//! | [`body`] | length, section, reference strain, and mass where a scene asks for it |
+//! | [`load`] | gravity and tip wrenches, with exact derivatives |
+//! | [`rod`] | the scene, and the collocation element in the strains |
+//! | [`solve`] | Newton's method, the static solver and its reports |
+//!
+//! # Ladder of models
+//!
+//! Each row is a choice, with the simplest first; take the first that is true of your rod. What each rung costs and how far off it
+//! is has not been measured yet.
+//!
+//! | choice | rungs |
+//! |---|---|
+//! | section | [`Stiffness`](section::Stiffness): Ψ = K Δξ with numbers you measured; [`Section`](section::Section): an energy on a section that stays plane and rigid |
+//! | level of the law | [`Isotropic`](material::Isotropic): u(I₁−3, I₂−3, J−1), 2 variables; [`Local`](material::Local): u(F), 3; [`Sectional`](material::Sectional): u(Δξ, x, y), 6 |
+//! | way to write it | a trait, or [`isotropic!`], [`local!`], [`sectional!`] in closure syntax; [`material::isotropic`] and its siblings: a real closure, which always pays for every variable |
+//! | shape along s | a number; [`Linear`](section::Linear); a closure of s over a dual number |
+//! | quadrature | exact for a law with a stated degree; for another, of degree [`Section::DEFAULT_DEGREE`](section::Section::DEFAULT_DEGREE) or what [`with_degree`](section::Section::with_degree) asks for |
+//! | element | [`Order`](solve::Order) 2, 4 or 6: one, two or three Gauss stages |
+//! | mass | none; [`with_density`](Body::with_density); [`with_mass_per_length`](Body::with_mass_per_length) |
+//!
+//! # What is not there yet
+//!
+//! * Dynamics and damping. The solver is static.
+//! * Sections that contract, warp or ovalise. A rigid section is too stiff for rubber unless the constants are chosen for it (correction 3).
+//! * Ends other than clamped and free; follower loads, tendons, pressure; rods joined to rods.
+//! * A stability check: the solver finds an equilibrium, and does not say whether it is a stable one. It applies the load in one step.
+//! * Meshes that adapt: elements are of equal length, and the error estimate is reported, not acted on.
+//! * An error estimate of the section's quadrature for laws that are not polynomials.
 
 #[doc(hidden)]
 pub use num_dual;
 
 pub mod body;
+/// Errors: which quantity, which value, where.
 pub mod error;
 pub mod lie;
 pub mod load;
@@ -20,3 +193,8 @@ pub use lie::{Pose, Strain, Twist, TwistMap, Wrench};
 pub use rod::Rod;
 pub use scalar::Scalar;
 pub use solve::{StaticSolution, Statics};
+
+/// The README's examples, compiled and run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,0 +1,133 @@
+use plotters::style::RGBColor;
+use std::path::Path;
+
+use super::Outcome;
+use super::frame::{Frame, MARGIN};
+use super::scale::Scale;
+use super::sheet::{BLUE, GREEN, INK, ORANGE, PURPLE, SKY, Sheet, TEXT, text_width};
+
+const PALETTE: [RGBColor; 5] = [BLUE, ORANGE, GREEN, PURPLE, SKY];
+const SIZE: [f64; 2] = [760.0, 420.0];
+
+/// A line chart with a legend above it.
+#[derive(Clone, Default)]
+pub struct Chart {
+    title: String,
+    labels: [String; 2],
+    log: [bool; 2],
+    curves: Vec<Curve>,
+    slopes: Vec<Slope>,
+}
+
+#[derive(Clone)]
+struct Curve {
+    name: String,
+    points: Vec<[f64; 2]>,
+    markers: bool,
+}
+
+/// A triangle that shows an order of convergence on logarithmic axes, y ~ x^order.
+#[derive(Clone, Copy)]
+pub struct Slope {
+    pub order: f64,
+    /// Its left corner.
+    pub at: [f64; 2],
+    /// x at its right end, divided by x at its left end.
+    pub ratio: f64,
+}
+
+impl Chart {
+    /// Labels carry the unit: `"curvature, 1/m"`.
+    pub fn new(title: &str, x_label: &str, y_label: &str) -> Self {
+        Self { title: title.into(), labels: [x_label.into(), y_label.into()], ..Self::default() }
+    }
+
+    /// Logarithmic axes: x, y.
+    pub fn log(self, x: bool, y: bool) -> Self {
+        Self { log: [x, y], ..self }
+    }
+
+    pub fn line(self, name: &str, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
+        self.curve(name, points, false)
+    }
+
+    /// A line with a dot at every point.
+    pub fn dots(self, name: &str, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
+        self.curve(name, points, true)
+    }
+
+    fn curve(mut self, name: &str, points: impl IntoIterator<Item = [f64; 2]>, markers: bool) -> Self {
+        self.curves.push(Curve { name: name.into(), points: points.into_iter().collect(), markers });
+        self
+    }
+
+    pub fn slope(mut self, slope: Slope) -> Self {
+        self.slopes.push(slope);
+        self
+    }
+
+    pub fn save(&self, path: &Path) -> Outcome {
+        stack(path, std::slice::from_ref(self))
+    }
+
+    fn draw(&self, sheet: &Sheet<'_>, offset: f64) -> Outcome {
+        let [left, right, top, bottom] = MARGIN;
+        let scale = |i: usize, pixel| {
+            let data = self.curves.iter().flat_map(|c| c.points.iter().map(move |p| p[i]));
+            let corners = self.slopes.iter().flat_map(move |s| s.corners().map(|p| p[i]));
+            Scale::new(Scale::fit(data.chain(corners), self.log[i]), pixel, self.log[i])
+        };
+        let frame = Frame {
+            x: scale(0, [left, SIZE[0] - right]),
+            y: scale(1, [offset + SIZE[1] - bottom, offset + top]),
+        };
+        frame.draw(sheet, [&self.labels[0], &self.labels[1]])?;
+        sheet.text(&self.title, [left, offset + 14.0], [-1, -1], 1.2 * TEXT)?;
+        let mut legend = [left, offset + top - 14.0];
+        for (curve, color) in self.curves.iter().zip(PALETTE.into_iter().cycle()) {
+            let drawable = |p: &&[f64; 2]| (0..2).all(|i| p[i].is_finite() && (!self.log[i] || p[i] > 0.0));
+            let points: Vec<_> = curve.points.iter().filter(drawable).map(|p| frame.at(*p)).collect();
+            sheet.line(&points, color, 2.0)?;
+            let dots: &[[f64; 2]] = if curve.markers { &points } else { &[] };
+            for dot in dots {
+                sheet.disc(*dot, 4.0, color)?;
+            }
+            sheet.line(&[legend, [legend[0] + 24.0, legend[1]]], color, 3.0)?;
+            sheet.text(&curve.name, [legend[0] + 30.0, legend[1]], [-1, 0], TEXT)?;
+            legend[0] += 54.0 + text_width(&curve.name, TEXT);
+        }
+        for slope in &self.slopes {
+            slope.draw(sheet, &frame)?;
+        }
+        Ok(())
+    }
+}
+
+impl Slope {
+    /// Left end, right end, and the corner of the right angle.
+    fn corners(&self) -> [[f64; 2]; 3] {
+        let [x, y] = self.at;
+        let (far, rise) = (x * self.ratio, y * self.ratio.powf(self.order));
+        [[x, y], [far, rise], [far, y]]
+    }
+
+    fn draw(&self, sheet: &Sheet<'_>, frame: &Frame) -> Outcome {
+        let [a, b, c] = self.corners().map(|p| frame.at(p));
+        sheet.line(&[a, b, c, a], INK, 1.0)?;
+        let (order, beside) = (self.order.abs().to_string(), [c[0] + 6.0, 0.5 * (b[1] + c[1])]);
+        sheet.text(&order, beside, [-1, 0], TEXT)?;
+        // on the side of the level leg that is outside the triangle
+        let (v, gap) = if b[1] > c[1] { (1, -4.0) } else { (-1, 4.0) };
+        sheet.text("1", [0.5 * (a[0] + c[0]), c[1] + gap], [0, v], TEXT)
+    }
+}
+
+/// Charts one below the other in one file.
+pub fn stack(path: &Path, charts: &[Chart]) -> Outcome {
+    Sheet::save(path, [SIZE[0], SIZE[1] * charts.len() as f64], |sheet| {
+        for (i, chart) in charts.iter().enumerate() {
+            chart.draw(sheet, SIZE[1] * i as f64)?;
+        }
+        Ok(())
+    })
+}
