@@ -9,7 +9,7 @@ mod primitives;
 use num_dual::DualNum;
 
 pub(crate) use primitives::from_taylor;
-pub use primitives::x_minus_ln_1p;
+pub use primitives::{arsinh_sqrt_squared, cosh_multiple_m1, exp_m1_minus_x, pow, pow_1p_m1, x_minus_ln_1p};
 
 /// A real number or any dual number over `f64`, passed by value.
 ///
