@@ -67,11 +67,14 @@ fn ogden_at_equal_stretches_is_the_limit_of_unequal_ones() {
     assert_eq!(limit.energy, 0.0);
     assert_eq!(limit.wrench.to_array(), [0.0; 6]);
     for shear in [1e-300, 1e-160, 1e-20, 1e-9] {
-        // third derivatives of a function even in the shear vanish: the tangent changes by its square
-        assert!((near(shear).tangent - limit.tangent).norm() <= 1e-14 * limit.tangent.norm(), "{shear:e}");
+        // shear and stretch couple in proportion to the shear
+        assert!(
+            (near(shear).tangent - limit.tangent).norm() <= (1e-14 + 10.0 * shear) * limit.tangent.norm(),
+            "{shear:e}"
+        );
         assert!((near(shear).wrench.force.x / (110e3 * shear) - 1.0).abs() < 1e-14);
     }
-    // all three stretches 1, and also any two: λ₊ = 1 where e = −a²/…, checked by the smoothness of the tangent along a path
+    // a path on which λ₊ passes the third stretch, which is 1
     let along = |t: f64| respond(&ogden, [0.0, 0.0, 0.0, 0.2 * t, 0.1, -0.3 + t], Request::Tangent).unwrap();
     for step in 0..400 {
         let t = step as f64 * 1e-3;
@@ -94,7 +97,6 @@ fn laws_coincide_where_their_formulas_do() {
     let blatz_ko = BlatzKo::new(MU, 0.0, 1.0).unwrap();
     assert_same(&blatz_ko, &NeoHookean::new(MU, 0.0).unwrap(), 1e-14);
     assert_same(&BlatzKo::new(MU, 1e-9, 0.3).unwrap(), &BlatzKo::new(MU, 0.0, 0.3).unwrap(), 1e-7);
-    // two Ogden terms make a Mooney–Rivlin solid with ln J: I₂ = Σ λ^−2 J², here at J = 1 only
     let isochoric = IsochoricNeoHookean::new(MU, KAPPA).unwrap();
     let table = [((1, 0), 0.5 * MU)];
     assert_same(&IsochoricPolynomial::new(&table, &[0.5 * KAPPA]).unwrap(), &isochoric, 1e-14);
