@@ -30,6 +30,16 @@ pub enum Error {
         /// Arc length, m.
         s: f64,
     },
+    /// A coefficient of a law's table that cannot be what it is.
+    #[error("coefficient {name} is {value}, but must be {requirement}")]
+    Coefficient {
+        /// Which one, for instance `C_20`, `D_1` or `mu_2`.
+        name: String,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        requirement: &'static str,
+    },
     /// A state of strain the material cannot be in, such as J ≤ 0.
     #[error(
         "inadmissible strain: {quantity} = {value} at s = {s} m, point (x, y) = ({x}, {y}) m; it must be {requirement}"

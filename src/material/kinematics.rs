@@ -1,7 +1,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::lie::Strain;
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, arsinh_sqrt_squared, cosh_multiple_m1, exp_m1_minus_x, pow_1p_m1};
 
 /// A point of the rod: section coordinates (x, y) and arc length s, all in m.
 ///
@@ -76,6 +76,37 @@ impl<D: Scalar> Deformation<D> {
         Invariants::from_shear_and_stretch(a * a + b * b, e)
     }
 
+    /// Σ λᵢ^α − 3 − α ln J of the principal stretches, of second order in the strain and smooth where stretches coalesce.
+    ///
+    /// A rigid section has the stretches 1 and λ± = √J e^{±θ}, with sinh²θ = (a² + b² + e²)/4J, so that
+    ///
+    /// ```math
+    /// \sum_i \lambda_i^\alpha - 3 - \alpha \ln J
+    ///   = 2\Bigl(J^{\alpha/2} - 1 - \tfrac{\alpha}{2}\ln J\Bigr) + 2 J^{\alpha/2} (\cosh \alpha\theta - 1) .
+    /// ```
+    ///
+    /// No root is taken of anything that vanishes at rest: the limit of equal stretches is exact, with its derivatives.
+    #[inline(always)]
+    pub fn stretch_powers_excess(&self, alpha: f64) -> D {
+        let half_power_log = self.gamma.z.ln_1p() * (0.5 * alpha);
+        let split = cosh_multiple_m1(self.sinh_squared(), alpha);
+        (exp_m1_minus_x(half_power_log) + half_power_log.exp() * split) * 2.0
+    }
+
+    /// Σ (ln λᵢ)² of the principal stretches, |ln U|², smooth where stretches coalesce: (ln J)²/2 + 2θ².
+    ///
+    /// See [`stretch_powers_excess`](Self::stretch_powers_excess).
+    #[inline(always)]
+    pub fn log_strain_squared(&self) -> D {
+        let ln_j = self.gamma.z.ln_1p();
+        ln_j * ln_j * 0.5 + arsinh_sqrt_squared(self.sinh_squared()) * 2.0
+    }
+
+    /// sinh²θ = (λ₊ − λ₋)²/4J.
+    fn sinh_squared(&self) -> D {
+        self.gamma.dot(&self.gamma) / ((self.gamma.z + 1.0) * 4.0)
+    }
+
     /// |F d|² − |d|² for a direction d (a unit vector for a fibre): twice its Green strain, I₄ − 1.
     ///
     /// ```math
@@ -140,5 +171,30 @@ impl<D: Scalar> Invariants<D> {
     #[inline(always)]
     pub fn i2_excess(&self) -> D {
         self.i2_excess
+    }
+
+    /// Ī₁ − 3 = J^(−2/3) I₁ − 3, of second order in the strain: with t = J^(1/3), and no difference of large numbers,
+    ///
+    /// ```math
+    /// \bar I_1 - 3 = \frac{(I_1 - 3 - 2(J-1)) + (t-1)^2 (2t+1)}{t^2} .
+    /// ```
+    #[inline(always)]
+    pub fn i1_isochoric(&self) -> D {
+        let growth = pow_1p_m1(self.j, 1.0 / 3.0);
+        let t = growth + 1.0;
+        (self.i1_excess + growth * growth * (t * 2.0 + 1.0)) / (t * t)
+    }
+
+    /// Ī₂ − 3 = J^(−4/3) I₂ − 3, of second order in the strain: with t = J^(1/3),
+    ///
+    /// ```math
+    /// \bar I_2 - 3 = \frac{(I_2 - 3 - 4(J-1)) - (t-1)^2 (3t^2+2t+1)}{t^4} .
+    /// ```
+    #[inline(always)]
+    pub fn i2_isochoric(&self) -> D {
+        let growth = pow_1p_m1(self.j, 1.0 / 3.0);
+        let t = growth + 1.0;
+        let t_squared = t * t;
+        (self.i2_excess - growth * growth * (t_squared * 3.0 + t * 2.0 + 1.0)) / (t_squared * t_squared)
     }
 }

@@ -165,7 +165,7 @@ impl<L: Local> Sectional for L {
         Local::domain(self)
     }
 
-    #[inline]
+    #[inline(always)]
     fn sum(&self, points: &Points, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
         integrate_local(self, Site { points, at, strain }, request)
     }

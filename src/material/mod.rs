@@ -15,31 +15,62 @@
 //!
 //! What lives here knows strains, points and weights; it knows no shape, no body and no rod.
 
+mod arruda_boyce;
+mod blatz_ko;
 mod closure;
+mod coefficient_table;
+mod combine;
+mod constants;
 mod differentiate;
+mod fibre_direction;
+mod fibres;
+mod fung;
+mod gent;
+mod hencky;
+mod holzapfel_gasser_ogden;
 mod integrate;
+mod isochoric_neo_hookean;
 mod kinematics;
 mod law;
 mod linear_elastic;
 mod macros;
 mod mooney_rivlin;
 mod neo_hookean;
+mod ogden;
+mod polynomial;
 mod response;
+mod saint_venant_kirchhoff;
 mod stress_free;
 mod sums;
+mod yeoh;
 
 #[doc(hidden)]
 pub use crate::lie::Strain as __Strain;
+pub use arruda_boyce::ArrudaBoyce;
+pub use blatz_ko::BlatzKo;
 pub use closure::{
     IsotropicClosure, LocalClosure, LocalJet, SectionalClosure, SectionalJet, isotropic, local, sectional,
 };
+pub use coefficient_table::Coefficient;
+pub use combine::{Scaled, Sum};
 #[doc(hidden)]
 pub use differentiate::{Fibre, FibreResponse, Level};
+pub use fibre_direction::{FibreDirection, Helix, Straight, Twisted};
+pub use fibres::Fibres;
+pub use fung::Fung;
+pub use gent::Gent;
+pub use hencky::Hencky;
+pub use holzapfel_gasser_ogden::HolzapfelGasserOgden;
+pub use isochoric_neo_hookean::IsochoricNeoHookean;
 pub use kinematics::{Deformation, Invariants, Point};
 pub use law::{Isotropic, Local, Material, Sectional};
 pub use linear_elastic::LinearElastic;
 pub use mooney_rivlin::MooneyRivlin;
 pub use neo_hookean::NeoHookean;
+pub use ogden::Ogden;
+pub use polynomial::{IsochoricPolynomial, Polynomial};
 pub(crate) use response::check_strain;
 pub use response::{PointRates, Points, Reference, Request, Response, Station};
+pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
 pub use stress_free::{ReferencePressure, StressFree};
+pub use yeoh::Yeoh;

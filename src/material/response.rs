@@ -33,13 +33,13 @@ pub struct Response {
 
 impl Response {
     /// No response.
-    #[inline]
+    #[inline(always)]
     pub fn zero() -> Self {
         Self { energy: 0.0, wrench: Wrench::zero(), tangent: Matrix6::zeros(), wrench_rate: Wrench::zero() }
     }
 
     /// Whether every number is finite.
-    #[inline]
+    #[inline(always)]
     pub fn is_finite(&self) -> bool {
         // x − x is 0 for a finite x and NaN otherwise: one sum tells of all
         let mut sum = self.energy - self.energy;
@@ -78,7 +78,7 @@ impl Reference {
     }
 
     /// Whether the volume of the reference per dA ds, γ*·e₃ = ν*_z + ω*_x y − ω*_y x, is anything but 1.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn is_curved(&self) -> bool {
         let (xi, rate) = (&self.twist, &self.rate);
         !(xi.angular.x == 0.0

@@ -17,8 +17,9 @@ use num_dual::{
 pub use jet::Jet;
 pub(crate) use jet_dual_num::lanes_disagreed;
 pub use lane::{Lane, Portable};
-pub use primitives::Univariate;
-pub use primitives::x_minus_ln_1p;
+pub use primitives::{
+    Univariate, arsinh_sqrt_squared, cosh_multiple_m1, exp_m1_minus_x, pow, pow_1p_m1, x_minus_ln_1p,
+};
 
 /// A real number or any dual number over `f64`, passed by value.
 ///

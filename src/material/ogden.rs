@@ -1,0 +1,70 @@
+use super::constants::{positive, require_coefficient};
+use super::kinematics::{Deformation, Point};
+use super::law::Local;
+use crate::error::Result;
+use crate::scalar::Scalar;
+
+/// Ogden's law in the principal stretches, u = Σ μ_p/α_p (Σᵢ λᵢ^α_p − 3 − α_p ln J) + λ/2 (ln J)².
+///
+/// The stretches coalesce at rest and eigenvalues are not smooth there; the sums of their powers are. They are written
+/// as analytic functions of the strain ([`Deformation::stretch_powers_excess`]), so that the limit of equal stretches is exact
+/// in value, wrench and tangent: nothing is perturbed. Free of stress at rest; small strains:
+///
+/// ```math
+/// G = \tfrac12 \sum_p \mu_p \alpha_p, \qquad E_{\text{rigid}} = \lambda + 2G .
+/// ```
+///
+/// Defined for J > 0. One term with α = 2 is [`NeoHookean`](super::NeoHookean) with μ = μ₁.
+///
+/// ```
+/// use hyperrod::material::Ogden;
+///
+/// // Ogden's fit to Treloar's rubber: (mu in Pa, alpha)
+/// let rubber = Ogden::new(&[(0.63e6, 1.3), (0.0012e6, 5.0), (-0.01e6, -2.0)], 10e6)?;
+/// # Ok::<(), hyperrod::Error>(())
+/// ```
+///
+/// Source: Ogden (1972), Proc. R. Soc. A 328, 567, Eq. (12), with F(J) = λ/2 (ln J)² and the pressure that frees rest of stress.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ogden {
+    terms: Vec<(f64, f64)>,
+    lambda: f64,
+}
+
+impl Ogden {
+    /// From the terms (μ_p in Pa, α_p) and λ, Pa.
+    ///
+    /// # Errors
+    /// If there is no term, a number is not finite, an α_p is zero, or the shear modulus ½ Σ μ_p α_p or the bulk modulus λ + 2G/3
+    /// is not positive.
+    pub fn new(terms: &[(f64, f64)], lambda: f64) -> Result<Self> {
+        for (p, &(mu, alpha)) in terms.iter().enumerate() {
+            require_coefficient(mu.is_finite(), || format!("mu_{}", p + 1), mu, "finite")?;
+            let usable = alpha.is_finite() && alpha != 0.0;
+            require_coefficient(usable, || format!("alpha_{}", p + 1), alpha, "finite and not zero")?;
+        }
+        let law = Self { terms: terms.to_vec(), lambda };
+        positive("Ogden shear modulus (half the sum of mu alpha)", law.shear_modulus())?;
+        positive("bulk modulus lambda + 2 G / 3", lambda + 2.0 / 3.0 * law.shear_modulus())?;
+        Ok(law)
+    }
+
+    /// G = ½ Σ μ_p α_p, Pa.
+    pub fn shear_modulus(&self) -> f64 {
+        0.5 * self.terms.iter().map(|(mu, alpha)| mu * alpha).sum::<f64>()
+    }
+}
+
+impl Local for Ogden {
+    #[inline(always)]
+    fn energy_density<D: Scalar>(&self, f: &Deformation<D>, _at: &Point<D>) -> D {
+        let ln_j = f.gamma().z.ln_1p();
+        self.terms.iter().fold(ln_j * ln_j * (0.5 * self.lambda), |sum, &(mu, alpha)| {
+            sum + f.stretch_powers_excess(alpha) * (mu / alpha)
+        })
+    }
+
+    fn domain(&self) -> &'static str {
+        "finite, which needs J > 0"
+    }
+}
