@@ -51,7 +51,8 @@ impl ReferenceShape {
             "nu_z of the reference strain",
         ];
         let reference = self.at(s);
-        let invalid = |quantity, value, requirement| Err(Error::InvalidAt { quantity, value, requirement, s });
+        let invalid =
+            |quantity, value, requirement| Err(Error::InvalidAt { quantity, value, requirement, s });
         let values = reference.twist.to_array().into_iter().zip(reference.rate.to_array());
         for ((value, rate), quantity) in values.zip(NAMES) {
             if !(value.is_finite() && rate.is_finite()) {
