@@ -1,4 +1,5 @@
 //! The shape of the source: imports go only toward the ground, every layer says what it is, no file is long, and nothing prints.
+#![allow(clippy::unwrap_used)] // a test that cannot go on should panic
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,6 @@
 //! What cannot be is refused with an error that names the quantity, its value and its place; a solve that ends without an answer says why and
 //! hands back how far it got.
+#![allow(clippy::unwrap_used)] // a test that cannot go on should panic
 
 use std::f64::consts::PI;
 
@@ -112,7 +113,7 @@ fn a_varying_reference_that_is_not_defined_fails_where_it_is_not() {
             if s.re > 1.0 && at_fault.is_nan() {
                 xi.angular.x = s * at_fault;
             } else if s.re > 1.0 {
-                xi.linear.z = xi.linear.z * at_fault;
+                xi.linear.z *= at_fault;
             }
             xi
         });

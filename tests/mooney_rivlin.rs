@@ -1,4 +1,5 @@
 //! Mooney–Rivlin on a rigid section is linear, and the three corrections to the source text, each against its closed form.
+#![allow(clippy::unwrap_used)] // a test that cannot go on should panic
 
 use std::f64::consts::PI;
 
@@ -147,7 +148,8 @@ fn a_compressible_law_on_a_rigid_section_has_the_uniaxial_strain_modulus() {
 #[test]
 fn stress_free_takes_the_wrench_at_rest_off_any_law_and_leaves_its_tangent() {
     let pull = 5e4;
-    let laws: Vec<(&str, Box<dyn Material>, Box<dyn Material>)> = vec![
+    type Pair = (&'static str, Box<dyn Material>, Box<dyn Material>);
+    let laws: Vec<Pair> = vec![
         ("Mooney-Rivlin", Box::new(mooney()), Box::new(StressFree(mooney()))),
         (
             "sectional macro",

@@ -1,4 +1,5 @@
 //! Wrench Ψ, tangent K and rate Ψ′ of a section against integrals in 54-digit arithmetic (tests/data/A_*.json, two routes each).
+#![allow(clippy::unwrap_used)] // a test that cannot go on should panic
 mod reference;
 
 use hyperrod::material::{Material, MooneyRivlin, NeoHookean, ReferencePressure, Request, Response, Station};

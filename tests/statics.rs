@@ -1,5 +1,6 @@
 //! Static rods against reference solutions of two independent routes each: shooting with an eighth-order Runge–Kutta method, and 16th-order
 //! collocation (tests/data).
+#![allow(clippy::unwrap_used)] // a test that cannot go on should panic
 mod reference;
 
 use hyperrod::Statics;

@@ -1,4 +1,5 @@
 //! How fast answers converge: order of the element, Newton's tail, and the error estimate.
+#![allow(clippy::unwrap_used)] // a test that cannot go on should panic
 mod reference;
 
 use hyperrod::solve::Order;

@@ -117,11 +117,11 @@ fn block_derivative<const S: usize>(
     for (i, element) in elements.iter().enumerate().rev() {
         let known = element.wrench_from_zeta * zeta[i] + sum(&element.wrench_from_strain, &direction[i]);
         d_wrench = element.wrench_from_wrench.lu().solve(&(d_wrench - known)).unwrap();
-        for k in 0..S {
+        for (k, answer) in derivative[i].iter_mut().enumerate() {
             let change = sum(&element.stage[k], &direction[i])
                 - element.from_zeta[k] * zeta[i]
                 - element.from_wrench[k] * d_wrench;
-            derivative[i][k] = Wrench::from_vector(&change);
+            *answer = Wrench::from_vector(&change);
         }
     }
     derivative
