@@ -1,3 +1,5 @@
+//! What can go wrong, as structured values.
+
 use thiserror::Error;
 
 /// What can go wrong below the solver: which quantity, which value, where.

@@ -11,7 +11,7 @@
 //! | annulus, centred | [`annulus`] | 3, 10, 27 |
 //! | unit square, centred | [`rectangle`] | 3, 6, 25 |
 //! | triangle (0,0), (1,0), (0,1) | [`triangle`] | 3, 6, 25 |
-//! | simple polygon with holes | [`Polygon::rule`] | about 3, 6, 17 |
+//! | simple polygon with holes | [`Polygon::rule`] | about 3, 6, 16–20 |
 //!
 //! [`Rule::scaled`] and [`Rule::transformed`] carry a rule to ellipses, rectangles and parallelograms without loss of
 //! degree. [`Rule::compressed`] turns any positive rule into one with at most (d+1)(d+2)/2 of its points.
