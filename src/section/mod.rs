@@ -8,6 +8,8 @@
 
 mod annulus;
 mod circle;
+mod composite;
+mod degree;
 mod ellipse;
 mod geometry;
 mod placement;
@@ -23,8 +25,10 @@ mod stiffness;
 pub use crate::quadrature::Polygon;
 pub use annulus::Annulus;
 pub use circle::Circle;
+pub use composite::Composite;
+pub use degree::{QuadratureReport, StrainRange};
 pub use ellipse::Ellipse;
-pub use geometry::{AreaMoments, Geometry};
+pub use geometry::{AreaMoments, Geometry, PrincipalAxes};
 pub use placement::{Rotated, Scaled, Shifted};
 pub use point_cloud::PointCloud;
 pub use profile::{Linear, Profile};
