@@ -1,7 +1,10 @@
 //! Sections: geometry, response, rates along s, curved references, choice of the quadrature, weight.
+#![allow(clippy::unwrap_used, clippy::expect_used)] // helpers of tests, as tests themselves
+
 #[path = "../reference/mod.rs"]
 mod reference;
 
+mod curved;
 mod degree;
 mod direct;
 mod geometry;
