@@ -8,7 +8,7 @@
 mod mass;
 mod reference;
 
-pub use mass::{Density, HasMass, LineDensity, MassModel, Massless};
+pub use mass::{Density, HasMass, LineDensity, LineMass, MassModel, Massless};
 pub use reference::ReferenceShape;
 
 use num_dual::Dual64;

@@ -8,6 +8,7 @@ mod curved;
 mod degree;
 mod direct;
 mod geometry;
+mod gravity;
 mod rates;
 mod refused;
 mod response;
