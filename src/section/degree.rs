@@ -133,6 +133,9 @@ impl<'a, S: Shape, M: Material> Probe<'a, S, M> {
             }
             (degree, coarse) = (next, fine);
         }
+        if limit < FINEST {
+            return Ok((limit, coarse)); // a section given by points is no finer than they are
+        }
         let what = "choice of a quadrature degree (try a larger tolerance or a smaller range of strains)";
         Err(Error::NoConvergence { what, iterations: rounds, residual: difference })
     }

@@ -8,7 +8,7 @@ use crate::quadrature::{MAX_COMPRESSED_DEGREE, Rule};
 /// A section given by points and weights of your own, for instance from a mesh or an image.
 ///
 /// The degree stated in the [`Rule`] is taken on trust. A law that needs less uses fewer of the points
-/// ([`Rule::compressed`]); one that needs more is refused.
+/// ([`Rule::compressed`]); a polynomial law that needs more is refused. Errors of quadrature are measured against all the points.
 ///
 /// ```
 /// use hyperrod::quadrature::Rule;

@@ -1,5 +1,5 @@
 //! Sections: geometry, response, rates along s, curved references, choice of the quadrature, weight.
-#![allow(clippy::unwrap_used, clippy::expect_used)] // helpers of tests, as tests themselves
+#![allow(clippy::unwrap_used, clippy::print_stdout)] // helpers of tests, as tests themselves
 
 #[path = "../reference/mod.rs"]
 mod reference;

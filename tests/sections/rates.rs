@@ -4,7 +4,11 @@
 //! Tolerance 1e-12 of the largest moment or force: both sides add some 10³ terms of either sign (1e3 · 2e-16), and the independent
 //! one forms F before taking I off it.
 
-use hyperrod::material::{NeoHookean, Reference, Station};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use hyperrod::material::{NeoHookean, Points, Reference, Station};
+use hyperrod::quadrature::Rule;
 use hyperrod::section::*;
 use hyperrod::{Strain, isotropic};
 use num_dual::{Dual64, DualNum};
@@ -187,4 +191,41 @@ fn a_constant_section_has_no_rate() {
     let section = Section::new(shape, neo()).unwrap();
     let rate = section.wrench_rate(&Station::straight(0.1), &Strain::from_array(STRAINS[0])).unwrap();
     assert_eq!(rate.to_array(), [0.0; 6]);
+}
+
+/// A circle that counts how often its points are placed.
+struct Counted<R>(Circle<R>, Arc<AtomicUsize>);
+
+impl<R: Profile> Shape for Counted<R> {
+    fn rule(&self, degree: usize) -> hyperrod::Result<Rule> {
+        self.0.rule(degree)
+    }
+
+    fn place(&self, rule: &Rule, s: f64) -> hyperrod::Result<Points> {
+        self.1.fetch_add(1, Ordering::Relaxed);
+        self.0.place(rule, s)
+    }
+
+    fn is_constant(&self) -> bool {
+        self.0.is_constant()
+    }
+}
+
+#[test]
+fn the_points_of_a_constant_section_are_placed_once() {
+    let placed = |shape: &dyn Fn(Arc<AtomicUsize>) -> Box<dyn Shape>| {
+        let count = Arc::new(AtomicUsize::new(0));
+        let section = Section::new(shape(count.clone()), neo()).unwrap();
+        for k in 0..10 {
+            let at = Station::straight(0.01 * k as f64);
+            section.tangent(&at, &Strain::from_array(STRAINS[0])).unwrap();
+            section.moments(at.s).unwrap();
+        }
+        count.load(Ordering::Relaxed)
+    };
+    assert_eq!(
+        placed(&|count| Box::new(Counted(Circle::new(0.01), count).rotated(0.2).shifted(0.001, 0.0))),
+        1
+    );
+    assert_eq!(placed(&|count| Box::new(Counted(Circle::new(|_: Dual64| 0.01.into()), count))), 20);
 }

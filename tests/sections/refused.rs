@@ -4,7 +4,7 @@ use hyperrod::error::PolygonError;
 use hyperrod::material::{LinearElastic, MooneyRivlin, NeoHookean, Station};
 use hyperrod::quadrature::Rule;
 use hyperrod::section::*;
-use hyperrod::{Error, Strain};
+use hyperrod::{Body, Error, Strain, Twist};
 use num_dual::Dual64;
 
 fn law() -> LinearElastic {
@@ -95,6 +95,22 @@ fn points_of_a_lower_degree_than_the_law_needs() {
     // a law that is no polynomial takes what there is
     let soft = Section::new(PointCloud::new(rule(5)), NeoHookean::new(1e5, 1e5).unwrap()).unwrap();
     assert_eq!((soft.degree(), soft.point_count()), (5, 2));
+    // and about a curved reference all the points are the best there is
+    let ring = Twist::from_array([0.0, 30.0, 0.0, 0.0, 0.0, 1.0]);
+    let curved = Body::new(1.0, soft).unwrap().with_reference_strain(ring).unwrap();
+    assert_eq!(curved.section().degree(), 5);
+}
+
+#[test]
+fn references_that_are_none() {
+    let body = || Body::new(1.0, Section::new(Circle::new(0.01), law()).unwrap()).unwrap();
+    let flat = Twist::from_array([0.0, 1.0, 0.0, 0.0, 0.0, 0.0]);
+    assert_eq!(named(body().with_reference_strain(flat)), "axial component of the reference strain");
+    let vanishing = body().with_varying_reference(|s: Dual64| {
+        let o = Dual64::from_re(0.0);
+        Twist::from_array([o, o, o, o, o, -s * 1.5 + 1.0])
+    });
+    assert_eq!(named(vanishing), "axial component of the reference strain");
 }
 
 #[test]

@@ -105,10 +105,10 @@ fn set_a_on_every_section_with_every_law() {
                 let ours = section.respond(&Station::straight(0.0), &strain, Request::Tangent).unwrap();
                 let (psi_scale, k_scale) = scale(section.material().as_ref(), &points, &strain);
                 let entry = worst.entry((key.clone(), case.kind.clone())).or_default();
-                for i in 0..6 {
-                    let error = (ours.wrench.to_array()[i] - case.psi[i]).abs();
+                for ((ours, exact), scale) in ours.wrench.to_array().iter().zip(case.psi).zip(psi_scale) {
+                    let error = (ours - exact).abs();
                     if error > 0.0 {
-                        entry[0] = entry[0].max(error / psi_scale[i]);
+                        entry[0] = entry[0].max(error / scale);
                     }
                 }
                 let Some(upper) = &case.upper else { continue };
