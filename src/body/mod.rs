@@ -8,7 +8,7 @@
 mod mass;
 mod reference;
 
-pub use mass::{Density, HasMass, LineDensity, MassModel, Massless};
+pub use mass::{Density, HasMass, LineDensity, LineMass, MassModel, Massless};
 pub use reference::ReferenceShape;
 
 use num_dual::Dual64;
@@ -50,7 +50,9 @@ impl<C: CrossSection> Body<C> {
         Ok(Self { length, section, reference: ReferenceShape::Straight, mass: Massless })
     }
 
-    /// The same with a density, kg/m³, of the reference: mass per length ρA.
+    /// The same with a density, kg/m³, of the reference: mass per length ∫ρ dV/ds, which is ρA where the reference is straight.
+    ///
+    /// In a [`Composite`](crate::section::Composite) it is the density of the parts that state no other.
     ///
     /// # Errors
     /// If the density is not positive and finite.
@@ -72,28 +74,43 @@ impl<C: CrossSection> Body<C> {
 }
 
 impl<C: CrossSection, M: Send + Sync> Body<C, M> {
-    /// The same with a constant reference strain ξ*: an arc, a helix.
+    /// The same with a constant reference strain ξ*: an arc, a helix. The section [adapts](CrossSection::adapt_to) to it.
     ///
     /// # Errors
-    /// If ξ* is not finite, or its axial component (the stretch of the reference) not positive.
+    /// If ξ* is not finite, its axial component (the stretch of the reference) not positive, or the section reaches the centre of
+    /// its curvature.
     pub fn with_reference_strain(self, xi: Twist) -> Result<Self> {
-        let stretch = xi.linear.z;
-        if !(xi.is_finite() && stretch > 0.0) {
-            let quantity = "axial component of the reference strain";
-            let requirement = "positive, and all components finite";
-            return Err(Error::Invalid { quantity, value: stretch, requirement });
-        }
-        Ok(Self { reference: ReferenceShape::Constant(xi), ..self })
+        Self { reference: ReferenceShape::Constant(xi), ..self }.adapted()
     }
 
     /// The same with a reference strain ξ*(s) that varies along the rod, written over [`Dual64`] so that ξ*′ comes with it.
     ///
-    /// A solve fails where it is not finite, or its axial component not positive.
+    /// It is examined at 17 places along the rod, to which the section [adapts](CrossSection::adapt_to).
+    ///
+    /// # Errors
+    /// As [`with_reference_strain`](Self::with_reference_strain), at one of those places.
     pub fn with_varying_reference(
         self,
         xi: impl Fn(Dual64) -> Twist<Dual64> + Send + Sync + 'static,
-    ) -> Self {
-        Self { reference: ReferenceShape::varying(xi), ..self }
+    ) -> Result<Self> {
+        Self { reference: ReferenceShape::varying(xi), ..self }.adapted()
+    }
+
+    /// Checks the reference and makes the section ready for it, at places spread over the rod.
+    fn adapted(mut self) -> Result<Self> {
+        const PLACES: usize = 16;
+        for k in 0..=PLACES {
+            let at = self.station(self.length * k as f64 / PLACES as f64);
+            let (xi, rate) = (&at.reference.twist, &at.reference.rate);
+            let stretch = xi.linear.z;
+            if !(xi.is_finite() && rate.is_finite() && stretch > 0.0) {
+                let quantity = "axial component of the reference strain";
+                let requirement = "positive, and all components and their slopes finite";
+                return Err(Error::InvalidAt { quantity, value: stretch, requirement, s: at.s });
+            }
+            self.section.adapt_to(&at)?;
+        }
+        Ok(self)
     }
 
     /// Length L, m.

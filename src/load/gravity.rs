@@ -2,11 +2,19 @@ use nalgebra::{Vector3, vector};
 
 use super::dead_wrench::dead;
 use super::{Load, LoadWrench};
-use crate::body::HasMass;
+use crate::body::{HasMass, LineMass};
 use crate::error::{Error, Result};
-use crate::lie::Pose;
+use crate::lie::{Pose, so3::hat};
 
-/// Weight: the force ρA g per length of the reference, through the axis of the rod.
+/// Weight: per length of the reference, the force of gravity on its mass, through the centre of that mass.
+///
+/// In the body frame, with mass per length μ and its first moments μ r_c in the section,
+///
+/// ```math
+/// n = \mu\, R^{\mathsf T} g, \qquad m = \mu r_c \times R^{\mathsf T} g, \qquad V = -g \cdot (\mu\, p + R\, \mu r_c) .
+/// ```
+///
+/// A section whose centroid is on the axis, about a straight reference, has μ = ρA and m = 0.
 ///
 /// It acts on bodies that [have a mass](HasMass); on one without, a scene does not compile:
 ///
@@ -16,8 +24,6 @@ use crate::lie::Pose;
 /// let body = Body::new(1.0, section).unwrap(); // no mass
 /// let rod = Rod::clamped(body, Pose::identity()).with_load(Gravity::standard());
 /// ```
-///
-/// For a section whose centroid is off the axis the moment of the weight about the axis is not included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gravity {
     acceleration: Vector3<f64>,
@@ -46,8 +52,19 @@ impl Gravity {
 
 impl<B: HasMass> Load<B> for Gravity {
     fn at(&self, body: &B, s: f64, pose: &Pose) -> Result<LoadWrench> {
-        let force = self.acceleration * body.mass_per_length(s)?;
-        let (wrench, tangent) = dead(pose, &Vector3::zeros(), &force);
-        Ok(LoadWrench { wrench, tangent, potential: Some(-force.dot(&pose.position)) })
+        let LineMass { mass, first: [x, y] } = body.line_mass(s)?;
+        let force = self.acceleration * mass;
+        let (mut wrench, mut tangent) = dead(pose, &Vector3::zeros(), &force);
+        let mut potential = -force.dot(&pose.position);
+        let first = vector![x, y, 0.0];
+        if first != Vector3::zeros() {
+            let acceleration = pose.rotation.tr_mul(&self.acceleration);
+            wrench.moment += first.cross(&acceleration);
+            // δ(Rᵀg) = (Rᵀg) × w
+            let moment_tangent = hat(&first) * hat(&acceleration);
+            tangent.fixed_view_mut::<3, 3>(0, 0).copy_from(&moment_tangent);
+            potential -= first.dot(&acceleration);
+        }
+        Ok(LoadWrench { wrench, tangent, potential: Some(potential) })
     }
 }

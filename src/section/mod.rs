@@ -1,25 +1,41 @@
 //! Cross-sections: shapes whose points move along s, and what a section answers to a strain.
 //!
-//! A [`Section`] is a [`Shape`] filled with a [`Material`](crate::material::Material); a [`Stiffness`] is a section given by its
-//! resultants alone. Both are a [`CrossSection`]: strain in, energy, wrench Ψ, tangent ∂Ψ/∂Δξ and rate Ψ′ out. What a section
+//! A [`Section`] is a [`Shape`] filled with a [`Material`](crate::material::Material), a [`Composite`] several of them; a [`Stiffness`] is
+//! a section given by its resultants alone. All are a [`CrossSection`]: strain in, energy, wrench Ψ, tangent ∂Ψ/∂Δξ and rate Ψ′ out. What a section
 //! weighs follows from its [`Geometry`].
 //!
 //! What lives here knows one section at a time: nothing of lengths, poses or loads.
 
+mod annulus;
 mod circle;
+mod composite;
+mod degree;
+mod ellipse;
 mod geometry;
+mod placement;
+mod point_cloud;
+mod polygon;
 mod profile;
 mod rectangle;
+mod regular_polygon;
 mod resultant;
 mod ribbon;
 mod shape;
 mod solid;
 mod stiffness;
 
+pub use crate::quadrature::Polygon;
+pub use annulus::Annulus;
 pub use circle::Circle;
-pub use geometry::{AreaMoments, Geometry};
+pub use composite::Composite;
+pub use degree::{QuadratureReport, StrainRange};
+pub use ellipse::Ellipse;
+pub use geometry::{AreaMoments, Geometry, PrincipalAxes};
+pub use placement::{Rotated, Scaled, Shifted};
+pub use point_cloud::PointCloud;
 pub use profile::{Linear, Profile};
 pub use rectangle::Rectangle;
+pub use regular_polygon::RegularPolygon;
 pub use resultant::{Resultant, Resultants};
 pub use ribbon::Ribbon;
 pub use shape::{Affine, Shape};
@@ -80,10 +96,22 @@ pub trait CrossSection: Send + Sync {
     fn wrench_rate(&self, at: &Station, strain: &Strain) -> Result<Wrench> {
         Ok(self.respond(at, strain, Request::Rate)?.wrench_rate)
     }
+
+    /// Makes ready for the reference at a station, as by a finer quadrature where that is curved; a body does it for its section.
+    ///
+    /// # Errors
+    /// As [`respond`](Self::respond), and [`Error::NoConvergence`](crate::Error::NoConvergence) where no quadrature resolves the curvature.
+    fn adapt_to(&mut self, _at: &Station) -> Result<()> {
+        Ok(())
+    }
 }
 
 impl CrossSection for Box<dyn CrossSection> {
     fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
         (**self).respond(at, strain, request)
+    }
+
+    fn adapt_to(&mut self, at: &Station) -> Result<()> {
+        (**self).adapt_to(at)
     }
 }

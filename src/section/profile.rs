@@ -1,6 +1,6 @@
 use num_dual::Dual64;
 
-/// A size that may vary along the rod: a number, a [`Linear`] taper, or a closure of s.
+/// A size, angle or factor that may vary along the rod: a number, a [`Linear`] taper, or a closure of s.
 ///
 /// A closure is written over [`Dual64`], so that its slope, which Ψ′ needs, comes with its value:
 ///
@@ -12,10 +12,10 @@ use num_dual::Dual64;
 /// # let _ = bulge;
 /// ```
 pub trait Profile: Send + Sync {
-    /// The size, in m, at arc length s.
+    /// Its value at arc length s: m for a size or shift, rad for an angle.
     fn at(&self, s: Dual64) -> Dual64;
 
-    /// Whether the size is the same everywhere, so that nothing need be computed twice.
+    /// Whether it is the same everywhere, so that nothing need be computed twice.
     fn is_constant(&self) -> bool {
         false
     }

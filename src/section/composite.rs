@@ -1,0 +1,102 @@
+use super::CrossSection;
+use super::geometry::{AreaMoments, Geometry};
+use crate::error::{Error, Result};
+use crate::lie::Strain;
+use crate::material::{Request, Response, Station};
+
+/// Several sections bonded together, each with its own shape and material: a stiff core in a soft sleeve.
+///
+/// They share one strain, so energies, wrenches, tangents and rates add up. That the parts do not overlap is the caller's care.
+///
+/// ```
+/// use hyperrod::material::{LinearElastic, NeoHookean};
+/// use hyperrod::section::{Annulus, Circle, Composite, Geometry, Section};
+/// # fn main() -> hyperrod::Result<()> {
+/// let core = Section::new(Circle::new(0.5e-3), LinearElastic::new(70e9, 26e9)?)?;
+/// let sleeve = Section::new(Annulus::new(0.5e-3, 5e-3), NeoHookean::from_young(1e6, 0.45)?)?;
+/// // a body's density is then that of the sleeve
+/// let cable = Composite::new(sleeve).with_relative_density(core, 2700.0 / 1100.0)?;
+/// assert!((cable.moments(0.0)?.area - std::f64::consts::PI * 25e-6).abs() < 1e-18);
+/// # Ok(()) }
+/// ```
+pub struct Composite {
+    parts: Vec<(Box<dyn Part>, f64)>,
+}
+
+/// A section that can be one of several: it responds to strains and knows its area.
+trait Part: CrossSection + Geometry {}
+
+impl<C: CrossSection + Geometry> Part for C {}
+
+impl Composite {
+    /// Of a first part.
+    pub fn new(section: impl CrossSection + Geometry + 'static) -> Self {
+        Self { parts: vec![(Box::new(section), 1.0)] }
+    }
+
+    /// The same with another part, as dense as the body's density says.
+    pub fn with(mut self, section: impl CrossSection + Geometry + 'static) -> Self {
+        self.parts.push((Box::new(section), 1.0));
+        self
+    }
+
+    /// The same with another part, denser than the body's density by a factor.
+    ///
+    /// # Errors
+    /// If the factor is negative or not finite.
+    pub fn with_relative_density(
+        mut self,
+        section: impl CrossSection + Geometry + 'static,
+        factor: f64,
+    ) -> Result<Self> {
+        if !(factor >= 0.0 && factor.is_finite()) {
+            let quantity = "relative density of a part";
+            return Err(Error::Invalid { quantity, value: factor, requirement: "finite and not negative" });
+        }
+        self.parts.push((Box::new(section), factor));
+        Ok(self)
+    }
+
+    /// How many parts there are.
+    pub fn part_count(&self) -> usize {
+        self.parts.len()
+    }
+}
+
+impl CrossSection for Composite {
+    fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
+        let mut total = Response::zero();
+        for (part, _) in &self.parts {
+            total += part.respond(at, strain, request)?;
+        }
+        Ok(total)
+    }
+
+    fn adapt_to(&mut self, at: &Station) -> Result<()> {
+        self.parts.iter_mut().try_for_each(|(part, _)| part.adapt_to(at))
+    }
+}
+
+impl Geometry for Composite {
+    fn moments(&self, s: f64) -> Result<AreaMoments> {
+        let mut total = AreaMoments::default();
+        for (part, _) in &self.parts {
+            total += part.moments(s)?;
+        }
+        Ok(total)
+    }
+
+    fn weighted_moments(&self, s: f64) -> Result<AreaMoments> {
+        let mut total = AreaMoments::default();
+        for (part, factor) in &self.parts {
+            total += part.weighted_moments(s)? * *factor;
+        }
+        Ok(total)
+    }
+}
+
+impl std::fmt::Debug for Composite {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Composite").field("parts", &self.parts.len()).finish()
+    }
+}
