@@ -9,6 +9,9 @@ use super::Lane;
 const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
 const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 
+/// 2⁵⁴: brings a subnormal number into the normal range.
+const TWO_54: f64 = 18_014_398_509_481_984.0;
+
 /// 2/3, 2/5, …: ln((1+s)/(1−s)) = 2s + s³(2/3 + 2/5 s² + …). For |s| ≤ 0.1716 (a number in [√½, √2]), s² ≤ 0.0295, and the term after
 /// ten, 0.0295¹¹ × 2/23, is below 2⁻⁵⁷ of the sum.
 const ARTANH: [f64; 10] = [
@@ -81,8 +84,7 @@ pub(super) fn x_minus_ln_1p<L: Lane>(x: L) -> L {
 pub(super) fn ln<L: Lane>(x: L) -> L {
     // subnormal numbers are brought into the normal range first
     let tiny = L::splat(f64::MIN_POSITIVE);
-    let two_54 = 18014398509481984.0;
-    let normal = x.select_lt(tiny, x * L::splat(two_54), x);
+    let normal = x.select_lt(tiny, x * L::splat(TWO_54), x);
     let (m, k) = normal.split_exponent();
     let k = x.select_lt(tiny, k - L::splat(54.0), k);
     let f = m - L::splat(1.0);
@@ -149,9 +151,51 @@ fn clamp_exponent<L: Lane>(k: L) -> L {
     low.select_lt(L::splat(1022.0), low, L::splat(1022.0))
 }
 
+/// a + b = s + e exactly, for |a| ≥ |b| or a = 0. Source: Dekker (1971), Numer. Math. 18, 224.
+#[inline(always)]
+fn two_sum<L: Lane>(a: L, b: L) -> (L, L) {
+    let s = a + b;
+    let b_seen = s - a;
+    (s, (a - (s - b_seen)) + (b - b_seen))
+}
+
+/// v = high + low with half the digits each.
+#[inline(always)]
+fn split<L: Lane>(v: L) -> (L, L) {
+    let c = v * L::splat(134_217_729.0); // 2²⁷ + 1
+    let high = c - (c - v);
+    (high, v - high)
+}
+
+/// a b = p + e exactly, without a fused multiplication. Source: Dekker (1971), with Veltkamp's splitting.
+#[inline(always)]
+fn two_product<L: Lane>(a: L, b: L) -> (L, L) {
+    let p = a * b;
+    let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
+    (p, ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low)
+}
+
+/// xᵖ = exp(p ln x), with ln x and the product carried to about 70 bits: else an error of |p ln x| ulp.
 #[inline(always)]
 pub(super) fn powf<L: Lane>(x: L, p: f64) -> L {
     let zero = L::splat(0.0);
+    let tiny = L::splat(f64::MIN_POSITIVE);
+    let normal = x.select_lt(tiny, x * L::splat(TWO_54), x);
+    let (m, k) = normal.split_exponent();
+    let k = x.select_lt(tiny, k - L::splat(54.0), k);
+    let f = m - L::splat(1.0);
+    let (high, rest) = two_sum(k * L::splat(LN_2_HIGH), f);
+    let low = rest + (k * L::splat(LN_2_LOW) - small_remainder(f));
+    let (high, low) = two_sum(high, low);
+    let power = L::splat(p);
+    let (product, error) = two_product(high, power);
+    let correction = error + low * power;
+    let exponential = product.exp();
+    let positive = product.abs().select_lt(
+        L::splat(700.0),
+        exponential + exponential * correction,
+        exponential,
+    );
     let at_zero = if p > 0.0 {
         0.0
     } else if p == 0.0 {
@@ -159,9 +203,8 @@ pub(super) fn powf<L: Lane>(x: L, p: f64) -> L {
     } else {
         f64::INFINITY
     };
-    let positive = (ln(x) * L::splat(p)).exp();
     let non_negative = zero.select_lt(x, positive, L::splat(at_zero));
     let result = x.select_lt(zero, L::splat(f64::NAN), non_negative);
-    // NaN in, NaN out
+    // NaN and ∞ in, NaN out
     result + (x - x)
 }

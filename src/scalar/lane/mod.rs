@@ -156,7 +156,7 @@ pub trait Lane:
         elementary::exp_m1(self)
     }
 
-    /// xᵖ for x ≥ 0, with a relative error of (2 + |p ln x|) ulp.
+    /// xᵖ for x ≥ 0, within 5 ulp; at 0 the limit.
     #[inline(always)]
     fn powf(self, p: f64) -> Self {
         elementary::powf(self, p)
@@ -200,6 +200,30 @@ impl Lane for f64 {
     #[inline(always)]
     fn scale_by_power_of_two(self, k: Self) -> Self {
         self * portable::power_of_two(k)
+    }
+    #[inline]
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        f(self)
+    }
+    #[inline]
+    fn ln_1p(self) -> Self {
+        f64::ln_1p(self)
+    }
+    #[inline]
+    fn ln(self) -> Self {
+        f64::ln(self)
+    }
+    #[inline]
+    fn exp(self) -> Self {
+        f64::exp(self)
+    }
+    #[inline]
+    fn exp_m1(self) -> Self {
+        f64::exp_m1(self)
+    }
+    #[inline]
+    fn powf(self, p: f64) -> Self {
+        f64::powf(self, p)
     }
 }
 
