@@ -21,7 +21,7 @@ fn wrench_and_tangent_of_every_law_agree_with_the_reference() {
         }
     }
     assert!(
-        cases >= 2 * 8 * 9 && tangents >= 2 * 8 * 4,
+        cases >= 4 * 8 * 9 && tangents >= 4 * 8 * 4,
         "only {cases} cases with {tangents} tangents were read"
     );
 }
