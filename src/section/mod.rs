@@ -6,6 +6,7 @@
 //!
 //! What lives here knows one section at a time: nothing of lengths, poses or loads.
 
+mod check;
 mod circle;
 mod geometry;
 mod profile;
@@ -16,6 +17,7 @@ mod shape;
 mod solid;
 mod stiffness;
 
+pub use check::{AxisRange, Bound, CheckOptions, CheckReport, Derivatives, Moduli, check};
 pub use circle::Circle;
 pub use geometry::{AreaMoments, Geometry};
 pub use profile::{Linear, Profile};
