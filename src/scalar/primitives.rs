@@ -23,7 +23,8 @@ pub(crate) fn from_taylor<D: Scalar>(x: D, coefficient: impl Fn(usize) -> f64) -
 ///
 /// ```
 /// // the naive form has no correct digit here
-/// assert_eq!(hyperrod::scalar::x_minus_ln_1p(1e-12), 5e-25 * (1.0 - 2e-12 / 3.0));
+/// let exact = 5e-25 * (1.0 - 2e-12 / 3.0);
+/// assert!((hyperrod::scalar::x_minus_ln_1p(1e-12) - exact).abs() < 1e-15 * exact);
 /// ```
 #[inline]
 pub fn x_minus_ln_1p<D: Scalar>(x: D) -> D {
@@ -79,7 +80,7 @@ fn real_exp_m1_minus_x(x: f64) -> f64 {
 /// ```
 /// use hyperrod::scalar::pow_1p_m1;
 ///
-/// assert_eq!(pow_1p_m1(1e-20, 1.0 / 3.0), 1e-20 / 3.0);
+/// assert!((pow_1p_m1(1e-20, 1.0 / 3.0) * 3e20 - 1.0_f64).abs() < 1e-15);
 /// assert!(((1.0_f64 + 1e-20).cbrt() - 1.0) == 0.0); // the naive form has lost everything
 /// ```
 #[inline]
@@ -150,7 +151,7 @@ pub fn cosh_multiple_m1<D: Scalar>(z: D, alpha: f64) -> D {
 ///
 /// ```
 /// use hyperrod::scalar::arsinh_sqrt_squared;
-/// assert!((arsinh_sqrt_squared(1e-20) - 1e-20).abs() < 1e-35);
+/// assert_eq!(arsinh_sqrt_squared(1e-20), 1e-20); // 1e-20 − 1e-40/3 + …
 /// ```
 pub fn arsinh_sqrt_squared<D: Scalar>(z: D) -> D {
     from_analytic_angle(z, 1.0, 0.0, |theta, k| match k {
@@ -177,8 +178,8 @@ fn from_analytic_angle<D: Scalar>(z: D, first: f64, q: f64, closed: impl Fn(f64,
     if r.abs() <= SERIES_LIMIT {
         let mut coefficients = [0.0; SERIES_TERMS + 1];
         let mut c = first;
-        for n in 1..=SERIES_TERMS {
-            coefficients[n] = c;
+        for (n, coefficient) in coefficients.iter_mut().enumerate().skip(1) {
+            *coefficient = c;
             let n = n as f64;
             c *= (q - n * n) / ((n + 0.5) * (n + 1.0));
         }

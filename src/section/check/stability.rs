@@ -83,7 +83,7 @@ fn state<M: Material>(probe: &Probe<'_, M>, axis: usize, size: f64) -> State {
 /// Judged with its diagonal scaled to one: near a pole of the law entries differ by more digits than there are, and the sign of the
 /// smallest eigenvalue of the plain matrix is rounding.
 fn lost_mode(tangent: &Matrix6<f64>) -> Option<Vector6<f64>> {
-    if let Some(axis) = (0..6).find(|&i| !(tangent[(i, i)] > 0.0)) {
+    if let Some(axis) = (0..6).find(|&i| tangent[(i, i)] <= 0.0) {
         return Some(Vector6::ith(axis, 1.0));
     }
     let scale = tangent.diagonal().map(|k| k.sqrt().recip());
