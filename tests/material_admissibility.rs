@@ -1,4 +1,5 @@
 //! At the edge of a law: the exact limit or an error that says what and where, never NaN. And laws that must coincide.
+#![allow(clippy::expect_used, clippy::unwrap_used)] // a test stops where its data are wrong
 
 use hyperrod::material::*;
 use hyperrod::section::{Circle, CrossSection, Resultant, Resultants, Ribbon, Section, Stiffness};

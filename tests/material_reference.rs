@@ -1,4 +1,5 @@
 //! Every law against 54-digit integrals over the section (set A), tiny strains included.
+#![allow(clippy::expect_used, clippy::unwrap_used)] // a test stops where its data are wrong
 
 mod section_reference;
 
@@ -21,7 +22,7 @@ fn wrench_and_tangent_of_every_law_agree_with_the_reference() {
         }
     }
     assert!(
-        cases >= 2 * 8 * 9 && tangents >= 2 * 8 * 4,
+        cases >= 4 * 8 * 9 && tangents >= 4 * 8 * 4,
         "only {cases} cases with {tangents} tangents were read"
     );
 }

@@ -128,6 +128,7 @@ fn arm(varying_reference: bool) -> Rod<Arm> {
             let zero = Dual64::from_re(0.0);
             Twist::from_array([s * 6.0 + 1.0, s * s * 20.0 - 2.0, one * 0.5, zero, zero, s * 0.1 + 1.0])
         })
+        .unwrap()
     } else {
         body
     };

@@ -100,14 +100,8 @@ impl<C: CrossSection, M: Send + Sync> Body<C, M> {
     fn adapted(mut self) -> Result<Self> {
         const PLACES: usize = 16;
         for k in 0..=PLACES {
-            let at = self.station(self.length * k as f64 / PLACES as f64);
-            let (xi, rate) = (&at.reference.twist, &at.reference.rate);
-            let stretch = xi.linear.z;
-            if !(xi.is_finite() && rate.is_finite() && stretch > 0.0) {
-                let quantity = "axial component of the reference strain";
-                let requirement = "positive, and all components and their slopes finite";
-                return Err(Error::InvalidAt { quantity, value: stretch, requirement, s: at.s });
-            }
+            let place = self.length * k as f64 / PLACES as f64;
+            let at = Station { s: place, reference: self.reference.checked(place)? };
             self.section.adapt_to(&at)?;
         }
         Ok(self)

@@ -7,6 +7,7 @@
 //! What lives here knows one section at a time: nothing of lengths, poses or loads.
 
 mod annulus;
+mod check;
 mod circle;
 mod composite;
 mod degree;
@@ -26,6 +27,7 @@ mod stiffness;
 
 pub use crate::quadrature::Polygon;
 pub use annulus::Annulus;
+pub use check::{AxisRange, Bound, CheckOptions, CheckReport, Derivatives, Moduli, check};
 pub use circle::Circle;
 pub use composite::Composite;
 pub use degree::{QuadratureReport, StrainRange};

@@ -24,7 +24,8 @@ use crate::scalar::Scalar;
 ///     fn energy<D: Scalar>(&self, strain: &Strain<D>, _s: D) -> D {
 ///         let bending = strain.angular.x * strain.angular.x + strain.angular.y * strain.angular.y;
 ///         let twist = strain.angular.z * strain.angular.z;
-///         ((bending + 1.0).sqrt() - 1.0) * 0.02 + twist * 0.01 + strain.linear.dot(&strain.linear) * 1e4
+///         let stretch = strain.linear.dot(&strain.linear);
+///         ((bending + 1.0).sqrt() - 1.0) * 0.02 + twist * 0.01 + stretch * 1e4
 ///     }
 /// }
 ///

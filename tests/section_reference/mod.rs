@@ -1,7 +1,9 @@
 //! Reads `tests/data/A_section_response.json`: Ψ and ∂Ψ/∂Δξ of eight laws on four sections in 54-digit arithmetic.
 #![allow(dead_code)] // each binary uses its own part
+#![allow(clippy::expect_used, clippy::unwrap_used)] // a test stops where its data are wrong
 
 use hyperrod::material::*;
+use hyperrod::quadrature::{Polygon, Rule, annulus};
 use hyperrod::section::{Circle, Rectangle, Shape};
 use hyperrod::{Error, Strain};
 use num_dual::Dual2SVec64;
@@ -48,6 +50,12 @@ pub fn groups() -> Vec<Group> {
     groups
 }
 
+/// A rule's points, where no shape is needed.
+pub fn as_points(rule: Rule) -> Points {
+    let [x, y, weight] = [rule.x(), rule.y(), rule.weights()].map(<[f64]>::to_vec);
+    Points { x, y, weight, rates: None }
+}
+
 fn case(value: &Value) -> Case {
     Case {
         kind: value["type"].as_str().expect("type").into(),
@@ -70,9 +78,15 @@ impl Group {
     pub fn points(&self, degree: usize) -> Option<Points> {
         let size = |name: &str| number(&self.shape[name]);
         let place = |shape: &dyn Shape| shape.rule(degree).and_then(|rule| shape.place(&rule, 0.0));
+        let vertex = |v: &Value| [number(&v[0]), number(&v[1])];
         let points = match self.shape["kind"].as_str()? {
             "circle" => place(&Circle::new(size("R"))),
             "rectangle" => place(&Rectangle::new(size("b"), size("h"))),
+            "annulus" => annulus(degree).and_then(|r| r.at(size("Ri"), size("Ro"))).map(as_points),
+            "L" => {
+                let vertices = self.shape["vertices"].as_array()?.iter().map(vertex).collect();
+                Polygon::new(vertices).and_then(|polygon| polygon.rule(degree)).map(as_points)
+            }
             _ => return None,
         };
         Some(points.expect("the section is admissible"))

@@ -191,11 +191,8 @@ pub(super) fn powf<L: Lane>(x: L, p: f64) -> L {
     let (product, error) = two_product(high, power);
     let correction = error + low * power;
     let exponential = product.exp();
-    let positive = product.abs().select_lt(
-        L::splat(700.0),
-        exponential + exponential * correction,
-        exponential,
-    );
+    let positive =
+        product.abs().select_lt(L::splat(700.0), exponential + exponential * correction, exponential);
     let at_zero = if p > 0.0 {
         0.0
     } else if p == 0.0 {
