@@ -107,7 +107,9 @@ impl<'a, M: Material> Probe<'a, M> {
 
     /// The strain with the given components, of order one: angular ones times the length are strains at the rim.
     fn strain(&self, components: [f64; 6]) -> Strain {
-        Strain::from_array(std::array::from_fn(|i| if i < 3 { components[i] / self.length } else { components[i] }))
+        Strain::from_array(std::array::from_fn(|i| {
+            if i < 3 { components[i] / self.length } else { components[i] }
+        }))
     }
 
     /// What a force of the given size is as a wrench of comparable moments and forces.
