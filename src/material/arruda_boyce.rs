@@ -17,7 +17,7 @@ use crate::scalar::{Scalar, x_minus_ln_1p};
 /// [`shear_modulus`](Self::shear_modulus), which exceeds μ. Defined for J > 0. Being a series, it has no pole at the locking stretch √3 λ_m:
 /// beyond about 0.8 of it the true inverse Langevin function is stiffer.
 ///
-/// Source: Arruda and Boyce (1993), J. Mech. Phys. Solids 41, 389, Eq. (22); the volumetric part as in the Abaqus Theory Guide.
+/// Source: Arruda and Boyce (1993), J. Mech. Phys. Solids 41, 389; the volumetric part as in the Abaqus Theory Guide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArrudaBoyce {
     /// Coefficients of (Ī₁−3), (Ī₁−3)², …, Pa.

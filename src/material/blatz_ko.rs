@@ -22,7 +22,7 @@ use crate::scalar::{Scalar, exp_m1_minus_x, x_minus_ln_1p};
 /// all of second order. Free of stress at rest; shear modulus μ, axial modulus of a section that cannot contract 2μ(1 + β). Defined for J > 0.
 /// The foam of the paper has f = 0, ν = 1/4: u = μ/2 (I₂/I₃ + 2√I₃ − 5). It loses stability in large shear and compression.
 ///
-/// Source: Blatz and Ko (1962), Trans. Soc. Rheol. 6, 223, Eq. (45).
+/// Source: Blatz and Ko (1962), Trans. Soc. Rheol. 6, 223.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BlatzKo {
     mu: f64,

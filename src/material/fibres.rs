@@ -18,7 +18,7 @@ use crate::scalar::Scalar;
 /// Uses the full I₄ and not its isochoric part, which would let fibres resist a change of volume
 /// (Nolan et al. (2014), J. Mech. Behav. Biomed. Mater. 39, 48).
 ///
-/// Source: Holzapfel, Gasser and Ogden (2000), J. Elasticity 61, 1, Eq. (66).
+/// Source: Holzapfel, Gasser and Ogden (2000), J. Elasticity 61, 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fibres<N> {
     direction: N,

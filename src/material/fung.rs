@@ -10,7 +10,7 @@ use crate::scalar::Scalar;
 /// stiffens; b → 0 is [`IsochoricNeoHookean`](super::IsochoricNeoHookean). Defined for J > 0; where the exponential overflows
 /// (b(Ī₁ − 3) above 700) the section answers with an error.
 ///
-/// Source: Fung (1967), Am. J. Physiol. 213, 1532; as an isotropic energy Demiray (1972), J. Biomech. 5, 309, Eq. (9).
+/// Source: Fung (1967), Am. J. Physiol. 213, 1532; as an isotropic energy Demiray (1972), J. Biomech. 5, 309.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fung {
     mu: f64,

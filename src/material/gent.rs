@@ -20,7 +20,7 @@ use crate::scalar::{Scalar, x_minus_ln_1p};
 /// # Ok::<(), hyperrod::Error>(())
 /// ```
 ///
-/// Source: Gent (1996), Rubber Chem. Technol. 69, 59, Eq. (3), made compressible with ln J as in Bonet and Wood (2008), Eq. (6.27).
+/// Source: Gent (1996), Rubber Chem. Technol. 69, 59, made compressible with ln J as in Bonet and Wood (2008), Eq. (6.27).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gent {
     mu: f64,

@@ -26,7 +26,7 @@ use crate::scalar::Scalar;
 /// # Ok::<(), hyperrod::Error>(())
 /// ```
 ///
-/// Source: Holzapfel, Gasser and Ogden (2000), J. Elasticity 61, 1, Eqs. (63)–(66).
+/// Source: Holzapfel, Gasser and Ogden (2000), J. Elasticity 61, 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HolzapfelGasserOgden<N, M = N>(Sum<IsochoricNeoHookean, Sum<Fibres<N>, Fibres<M>>>);
 

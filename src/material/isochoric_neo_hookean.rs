@@ -10,7 +10,7 @@ use crate::scalar::Scalar;
 /// stress at rest; shear modulus μ, bulk modulus κ, axial modulus of a section that cannot contract κ + 4μ/3. Defined
 /// for J > 0. [`NeoHookean`](super::NeoHookean) is the one with ln J; the two agree for small strains when λ = κ − 2μ/3.
 ///
-/// Source: Simo (1988), Comput. Methods Appl. Mech. Eng. 66, 199, Eq. (2.7), with the quadratic volumetric part; in finite-element
+/// Source: Simo (1988), Comput. Methods Appl. Mech. Eng. 66, 199, with the quadratic volumetric part; in finite-element
 /// codes C₁₀ = μ/2, D₁ = 2/κ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IsochoricNeoHookean {

@@ -24,7 +24,7 @@ use crate::scalar::Scalar;
 /// # Ok::<(), hyperrod::Error>(())
 /// ```
 ///
-/// Source: Ogden (1972), Proc. R. Soc. A 328, 567, Eq. (12), with F(J) = λ/2 (ln J)² and the pressure that frees rest of stress.
+/// Source: Ogden (1972), Proc. R. Soc. A 328, 567, with F(J) = λ/2 (ln J)² and the pressure that frees rest of stress.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ogden {
     terms: Vec<(f64, f64)>,

@@ -29,7 +29,7 @@ use crate::scalar::Scalar;
 /// # let _ = rubber; Ok(()) }
 /// ```
 ///
-/// Source: Rivlin and Saunders (1951), Phil. Trans. R. Soc. A 243, 251, Eq. (3.1), with volumetric terms.
+/// Source: Rivlin and Saunders (1951), Phil. Trans. R. Soc. A 243, 251, with volumetric terms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polynomial {
     table: CoefficientTable,

@@ -21,7 +21,7 @@ use crate::scalar::Scalar;
 /// # Ok::<(), hyperrod::Error>(())
 /// ```
 ///
-/// Source: Yeoh (1993), Rubber Chem. Technol. 66, 754, Eq. (1), with volumetric terms.
+/// Source: Yeoh (1993), Rubber Chem. Technol. 66, 754, with volumetric terms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Yeoh {
     c: [f64; 3],

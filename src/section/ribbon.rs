@@ -20,8 +20,7 @@ use crate::scalar::Scalar;
 /// degree two but not quadratic, so there is no tangent at κ = τ = 0; that of Q = κ² + 2τ², the ribbon bent first, is given.
 /// Reference straight; w much larger than t, and w κ small.
 ///
-/// Source: Sadowsky (1930), Sitzungsber. Preuss. Akad. Wiss. 22, 412; Freddi, Hornung, Mora and Paroni (2016), J. Elasticity 123, 125,
-/// Eq. (1.3).
+/// Source: Sadowsky (1930), Sitzungsber. Preuss. Akad. Wiss. 22, 412; Freddi, Hornung, Mora and Paroni (2016), J. Elasticity 123, 125.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ribbon {
     plate: f64,
