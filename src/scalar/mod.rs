@@ -5,7 +5,6 @@
 //! strain, no section, no rod.
 
 mod jet;
-mod jet_dual_num;
 pub(crate) mod lane;
 mod primitives;
 
@@ -15,7 +14,7 @@ use num_dual::{
 };
 
 pub use jet::Jet;
-pub(crate) use jet_dual_num::lanes_disagreed;
+pub(crate) use jet::lanes_disagreed;
 pub use lane::{Lane, Portable};
 pub use primitives::{
     Univariate, arsinh_sqrt_squared, cosh_multiple_m1, exp_m1_minus_x, pow, pow_1p_m1, x_minus_ln_1p,

@@ -73,9 +73,13 @@ fn dual_residual<const S: usize>(
             std::array::from_fn(|k| Twist::from_array(along(xi[k].to_array(), direction[i][k].to_array())));
         let motion = Kinematics::new(&mesh.table, &xi, h);
         let stage: [Wrench<Dual64>; S] = std::array::from_fn(|k| {
-            let mass = if heavy { body.mass_per_length(mesh.stage_s(i, k)).unwrap() } else { 0.0 };
-            let pose = pose * motion.stage[k];
-            Wrench::new(Vector3::zeros().map(Dual64::from_re), in_body(&pose, &(weight() * mass)))
+            if !heavy {
+                return Wrench::zero();
+            }
+            let line = body.line_mass(mesh.stage_s(i, k)).unwrap();
+            let centre = Vector3::new(line.first[0], line.first[1], 0.0).map(Dual64::from_re);
+            let acceleration = in_body(&(pose * motion.stage[k]), &weight());
+            Wrench::new(centre.cross(&acceleration), acceleration * Dual64::from_re(line.mass))
         });
         loads.push(motion.to_node(&stage));
         pose = pose * motion.end;

@@ -1,6 +1,11 @@
 //! The packed second-order jet the engine evaluates energies with.
 
+mod dual_num;
+mod operators;
+
 use std::ops::{Add, Mul, Neg, Sub};
+
+pub(crate) use operators::lanes_disagreed;
 
 use super::lane::Lane;
 
