@@ -193,4 +193,8 @@ where
     fn polynomial_degree(&self) -> Option<usize> {
         None
     }
+
+    fn is_local(&self) -> bool {
+        false
+    }
 }

@@ -28,6 +28,10 @@ impl<A: Local, B: Local> Local for Sum<A, B> {
         Some(self.0.degree()?.max(self.1.degree()?))
     }
 
+    fn is_uniform(&self) -> bool {
+        self.0.is_uniform() && self.1.is_uniform()
+    }
+
     fn domain(&self) -> &'static str {
         "finite: the strain leaves the domain of one of the laws added"
     }
@@ -65,6 +69,10 @@ impl<L: Local> Local for Scaled<L> {
 
     fn degree(&self) -> Option<usize> {
         self.law.degree()
+    }
+
+    fn is_uniform(&self) -> bool {
+        self.law.is_uniform()
     }
 
     fn domain(&self) -> &'static str {

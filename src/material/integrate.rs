@@ -8,7 +8,7 @@ use std::marker::PhantomData;
 use super::differentiate::{Energy, Fibre, FibreResponse, Level, Rate, Tangent, Wrench, along};
 use super::kinematics::Point;
 use super::law::{Local, Sectional};
-use super::response::{Points, Request, Response, Station, check_strain};
+use super::response::{Points, Reference, Request, Response, Station, check_strain};
 use super::sums::{Block, Sums};
 use crate::error::{Error, Result};
 use crate::lie::Strain;
@@ -121,7 +121,7 @@ pub(super) fn sum_local<L: Lane, O: Level, R: Respond<L, O> + ?Sized>(site: Site
     let mut cursor = Cursor::new::<L>(site.points.len());
     while let Some((q, lane)) = cursor.place() {
         let mut block = load_block::<L, O>(site, q);
-        let mut fibre = fibre::<L, O>(&xi, site, &block);
+        let mut fibre = fibre::<L, O>(&xi, L::splat(site.at.s), &site.at.reference, &block);
         let j = L::splat(1.0) + fibre.gamma[2];
         smallest = j.select_lt(smallest, j, smallest);
         smallest = block.volume.select_lt(smallest, block.volume, smallest);
@@ -146,18 +146,7 @@ pub(super) fn sum_local<L: Lane, O: Level, R: Respond<L, O> + ?Sized>(site: Site
 fn load_block<L: Lane, O: Level>(site: Site<'_>, q: usize) -> Block<L> {
     let points = site.points;
     let (x, y) = (load(&points.x, q, points.x[q]), load(&points.y, q, points.y[q]));
-    let one = L::splat(1.0);
-    let zero = L::splat(0.0);
-    let mut block = Block {
-        x,
-        y,
-        weight: load(&points.weight, q, 0.0),
-        x_rate: zero,
-        y_rate: zero,
-        weight_rate: zero,
-        volume: one,
-        inverse_volume: one,
-    };
+    let mut block = Block::at(x, y, load(&points.weight, q, 0.0));
     if let (true, Some(rates)) = (O::REQUEST >= Request::Rate, &points.rates) {
         block.x_rate = load(&rates.x, q, rates.x[q]);
         block.y_rate = load(&rates.y, q, rates.y[q]);
@@ -165,7 +154,7 @@ fn load_block<L: Lane, O: Level>(site: Site<'_>, q: usize) -> Block<L> {
     }
     if site.at.reference.is_curved() {
         block.volume = volume(&splat6(&site.at.reference.twist.to_array()), x, y);
-        block.inverse_volume = one / block.volume;
+        block.inverse_volume = L::splat(1.0) / block.volume;
     }
     block
 }
@@ -201,9 +190,8 @@ fn column<L: Lane>(xi: &[L; 6], x: L, y: L) -> [L; 3] {
 
 /// γ = B Δξ / j at a block of points, and its derivative in s at fixed Δξ: (B′ Δξ − γ j′) / j.
 #[inline(always)]
-fn fibre<L: Lane, O: Level>(xi: &[L; 6], site: Site<'_>, p: &Block<L>) -> Fibre<L> {
+pub(super) fn fibre<L: Lane, O: Level>(xi: &[L; 6], s: L, reference: &Reference, p: &Block<L>) -> Fibre<L> {
     let zero = L::splat(0.0);
-    let reference = &site.at.reference;
     let mut gamma = column(xi, p.x, p.y);
     if reference.is_curved() {
         let inverse = p.inverse_volume;
@@ -223,13 +211,7 @@ fn fibre<L: Lane, O: Level>(xi: &[L; 6], site: Site<'_>, p: &Block<L>) -> Fibre<
             }
         }
     }
-    Fibre {
-        position: [p.x, p.y],
-        position_rate: [p.x_rate, p.y_rate],
-        s: L::splat(site.at.s),
-        gamma,
-        gamma_rate,
-    }
+    Fibre { position: [p.x, p.y], position_rate: [p.x_rate, p.y_rate], s, gamma, gamma_rate }
 }
 
 /// Finds what made a sum inadmissible or not finite, and where: by the same sum over one point at a time.

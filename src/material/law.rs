@@ -1,3 +1,4 @@
+use super::batch::integrate_many;
 use super::differentiate::{Fibre, FibreResponse, Level, isotropic_response, local_response};
 use super::integrate::{Site, integrate_local, integrate_sectional};
 use super::kinematics::{Deformation, Invariants, Point};
@@ -27,9 +28,15 @@ pub trait Isotropic: Send + Sync {
     /// The strain energy per reference volume, J/m³.
     fn energy_density<D: Scalar>(&self, invariants: &Invariants<D>, at: &Point<D>) -> D;
 
-    /// The degree of the energy density as a polynomial in the strain; `None` where it is not one.
+    /// The degree of the energy density as a polynomial in the strain, and in x and y for a law graded over the section; `None` where it
+    /// is not one.
     fn degree(&self) -> Option<usize> {
         None
+    }
+
+    /// Whether the energy density is the same at every s, that is, ignores `at.s`. A uniform quadratic one is integrated once and for all.
+    fn is_uniform(&self) -> bool {
+        false
     }
 
     /// Where the law is defined, in words for an error message.
@@ -74,9 +81,15 @@ pub trait Local: Send + Sync {
     /// The strain energy per reference volume, J/m³.
     fn energy_density<D: Scalar>(&self, deformation: &Deformation<D>, at: &Point<D>) -> D;
 
-    /// The degree of the energy density as a polynomial in the strain; `None` where it is not one.
+    /// The degree of the energy density as a polynomial in the strain, and in x and y for a law graded over the section; `None` where it
+    /// is not one.
     fn degree(&self) -> Option<usize> {
         None
+    }
+
+    /// Whether the energy density is the same at every s, that is, ignores `at.s`. A uniform quadratic one is integrated once and for all.
+    fn is_uniform(&self) -> bool {
+        false
     }
 
     /// Where the law is defined, in words for an error message.
@@ -100,6 +113,10 @@ impl<M: Isotropic> Local for M {
 
     fn degree(&self) -> Option<usize> {
         Isotropic::degree(self)
+    }
+
+    fn is_uniform(&self) -> bool {
+        Isotropic::is_uniform(self)
     }
 
     fn domain(&self) -> &'static str {
@@ -134,9 +151,15 @@ pub trait Sectional: Send + Sync {
     /// The strain energy per reference area of section and length of rod, J/m³.
     fn energy_density<D: Scalar>(&self, strain: &Strain<D>, at: &Point<D>) -> D;
 
-    /// The degree of the energy density as a polynomial in the strain; `None` where it is not one.
+    /// The degree of the energy density as a polynomial in the strain, and in x and y for a law graded over the section; `None` where it
+    /// is not one.
     fn degree(&self) -> Option<usize> {
         None
+    }
+
+    /// Whether the energy density is the same at every s, that is, ignores `at.s`. A uniform quadratic one is integrated once and for all.
+    fn is_uniform(&self) -> bool {
+        false
     }
 
     /// Where the law is defined, in words for an error message.
@@ -144,11 +167,42 @@ pub trait Sectional: Send + Sync {
         "where the energy density is finite"
     }
 
+    /// Whether the energy is one of the deformation at the point, so that J > 0 is required and the volume of a curved reference
+    /// accounted for. The library's business.
+    #[doc(hidden)]
+    fn is_local(&self) -> bool {
+        false
+    }
+
     /// The sum over the points of a section. The library's business, overridden by the cheaper levels.
     #[doc(hidden)]
     fn sum(&self, points: &Points, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
         integrate_sectional(self, Site { points, at, strain }, request)
     }
+
+    /// The sums for many strains. The library's business, overridden by the cheaper levels.
+    #[doc(hidden)]
+    fn sum_many(
+        &self,
+        points: &Points,
+        sites: &[(Station, Strain)],
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        one_by_one(sites, out, |at, strain| self.sum(points, at, strain, request))
+    }
+}
+
+/// Fills `out` one strain at a time.
+pub(super) fn one_by_one(
+    sites: &[(Station, Strain)],
+    out: &mut [Response],
+    respond: impl Fn(&Station, &Strain) -> Result<Response>,
+) -> Result<()> {
+    for ((at, strain), out) in sites.iter().zip(out) {
+        *out = respond(at, strain)?;
+    }
+    Ok(())
 }
 
 impl<L: Local> Sectional for L {
@@ -161,6 +215,14 @@ impl<L: Local> Sectional for L {
         Local::degree(self)
     }
 
+    fn is_uniform(&self) -> bool {
+        Local::is_uniform(self)
+    }
+
+    fn is_local(&self) -> bool {
+        true
+    }
+
     fn domain(&self) -> &'static str {
         Local::domain(self)
     }
@@ -168,6 +230,16 @@ impl<L: Local> Sectional for L {
     #[inline(always)]
     fn sum(&self, points: &Points, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
         integrate_local(self, Site { points, at, strain }, request)
+    }
+
+    fn sum_many(
+        &self,
+        points: &Points,
+        sites: &[(Station, Strain)],
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        integrate_many(self, points, sites, request, out)
     }
 }
 
@@ -184,8 +256,32 @@ pub trait Material: Send + Sync {
     fn integrate(&self, points: &Points, at: &Station, strain: &Strain, request: Request)
     -> Result<Response>;
 
-    /// The degree of the energy density as a polynomial in the strain; `None` where it is not one.
+    /// As [`integrate`](Self::integrate) for many strains on the same points: a lane a strain, which saves the sums over the lanes.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate), for the first strain that fails.
+    fn integrate_many(
+        &self,
+        points: &Points,
+        sites: &[(Station, Strain)],
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        one_by_one(sites, out, |at, strain| self.integrate(points, at, strain, request))
+    }
+
+    /// The degree of the energy density as a polynomial in the strain, x and y; `None` where it is not one.
     fn polynomial_degree(&self) -> Option<usize>;
+
+    /// Whether the energy density is the same at every s.
+    fn is_uniform(&self) -> bool {
+        false
+    }
+
+    /// Whether J > 0 is required and the volume of a curved reference accounted for: all but the [`Sectional`] laws.
+    fn is_local(&self) -> bool {
+        true
+    }
 }
 
 impl<L: Sectional> Material for L {
@@ -199,8 +295,26 @@ impl<L: Sectional> Material for L {
         self.sum(points, at, strain, request)
     }
 
+    fn integrate_many(
+        &self,
+        points: &Points,
+        sites: &[(Station, Strain)],
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        self.sum_many(points, sites, request, out)
+    }
+
     fn polynomial_degree(&self) -> Option<usize> {
         Sectional::degree(self)
+    }
+
+    fn is_uniform(&self) -> bool {
+        Sectional::is_uniform(self)
+    }
+
+    fn is_local(&self) -> bool {
+        Sectional::is_local(self)
     }
 }
 
@@ -215,7 +329,25 @@ impl Material for Box<dyn Material> {
         (**self).integrate(points, at, strain, request)
     }
 
+    fn integrate_many(
+        &self,
+        points: &Points,
+        sites: &[(Station, Strain)],
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        (**self).integrate_many(points, sites, request, out)
+    }
+
     fn polynomial_degree(&self) -> Option<usize> {
         (**self).polynomial_degree()
+    }
+
+    fn is_uniform(&self) -> bool {
+        (**self).is_uniform()
+    }
+
+    fn is_local(&self) -> bool {
+        (**self).is_local()
     }
 }

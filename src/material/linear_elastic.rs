@@ -58,4 +58,8 @@ impl Sectional for LinearElastic {
     fn degree(&self) -> Option<usize> {
         Some(2)
     }
+
+    fn is_uniform(&self) -> bool {
+        true
+    }
 }

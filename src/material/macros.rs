@@ -1,18 +1,19 @@
 /// Writes an [`Isotropic`](crate::material::Isotropic) law in closure syntax.
 ///
 /// Captured numbers are listed with their types and taken by copy from the variables of that name; the closure may also be
-/// given a polynomial `degree`, which lets the section choose its quadrature. It expands to a type and an implementation
+/// given a polynomial `degree`, which lets the section choose its quadrature, and be called `uniform` where it ignores `at.s`, so that a
+/// quadratic one is integrated only once. It expands to a type and an implementation
 /// of the trait, so it is as fast as one.
 ///
 /// ```
 /// let (c1, c2) = (30e3, 10e3);
-/// let rubber = hyperrod::isotropic!([c1: f64, c2: f64] degree 2; |i, _at| i.i1_excess() * c1 + i.i2_excess() * c2);
+/// let rubber = hyperrod::isotropic!([c1: f64, c2: f64] degree 2, uniform; |i, _at| i.i1_excess() * c1 + i.i2_excess() * c2);
 /// # let _ = rubber;
 /// ```
 #[macro_export]
 macro_rules! isotropic {
-    ($([$($capture:ident : $type:ty),* $(,)?])? $(degree $degree:expr;)? |$i:ident, $at:ident| $body:expr) => {
-        $crate::__law!(Isotropic, Invariants, ($($($capture : $type),*)?) ($($degree)?) |$i, $at| $body)
+    ($([$($capture:ident : $type:ty),* $(,)?])? $(degree $degree:literal $(, $uniform:ident)?;)? |$i:ident, $at:ident| $body:expr) => {
+        $crate::__law!(Isotropic, Invariants, ($($($capture : $type),*)?) ($($degree $(, $uniform)?)?) |$i, $at| $body)
     };
 }
 
@@ -28,8 +29,8 @@ macro_rules! isotropic {
 /// ```
 #[macro_export]
 macro_rules! local {
-    ($([$($capture:ident : $type:ty),* $(,)?])? $(degree $degree:expr;)? |$f:ident, $at:ident| $body:expr) => {
-        $crate::__law!(Local, Deformation, ($($($capture : $type),*)?) ($($degree)?) |$f, $at| $body)
+    ($([$($capture:ident : $type:ty),* $(,)?])? $(degree $degree:literal $(, $uniform:ident)?;)? |$f:ident, $at:ident| $body:expr) => {
+        $crate::__law!(Local, Deformation, ($($($capture : $type),*)?) ($($degree $(, $uniform)?)?) |$f, $at| $body)
     };
 }
 
@@ -45,15 +46,23 @@ macro_rules! local {
 /// ```
 #[macro_export]
 macro_rules! sectional {
-    ($([$($capture:ident : $type:ty),* $(,)?])? $(degree $degree:expr;)? |$strain:ident, $at:ident| $body:expr) => {
-        $crate::__law!(Sectional, __Strain, ($($($capture : $type),*)?) ($($degree)?) |$strain, $at| $body)
+    ($([$($capture:ident : $type:ty),* $(,)?])? $(degree $degree:literal $(, $uniform:ident)?;)? |$strain:ident, $at:ident| $body:expr) => {
+        $crate::__law!(Sectional, __Strain, ($($($capture : $type),*)?) ($($degree $(, $uniform)?)?) |$strain, $at| $body)
+    };
+}
+
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __uniform {
+    (uniform) => {
+        true
     };
 }
 
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __law {
-    ($level:ident, $argument:ident, ($($capture:ident : $type:ty),*) ($($degree:expr)?) |$arg:ident, $at:ident| $body:expr) => {{
+    ($level:ident, $argument:ident, ($($capture:ident : $type:ty),*) ($($degree:literal $(, $uniform:ident)?)?) |$arg:ident, $at:ident| $body:expr) => {{
         #[allow(unused_imports)]
         use $crate::num_dual::DualNum as _;
         struct Law {
@@ -71,7 +80,10 @@ macro_rules! __law {
             }
             $(fn degree(&self) -> Option<usize> {
                 Some($degree)
-            })?
+            }
+            $(fn is_uniform(&self) -> bool {
+                $crate::__uniform!($uniform)
+            })?)?
         }
         Law { $($capture,)* }
     }};

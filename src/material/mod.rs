@@ -35,6 +35,7 @@
 //! What lives here knows strains, points and weights; it knows no shape, no body and no rod.
 
 mod arruda_boyce;
+mod batch;
 mod blatz_ko;
 mod closure;
 mod coefficient_table;

@@ -67,6 +67,10 @@ impl Isotropic for MooneyRivlin {
         Some(2)
     }
 
+    fn is_uniform(&self) -> bool {
+        true
+    }
+
     #[inline(always)]
     fn stress_free_energy_density<D: Scalar>(&self, i: &Invariants<D>, _at: &Point<D>) -> D {
         i.i1_excess() * self.c1 + i.i2_excess() * self.c2

@@ -93,6 +93,10 @@ impl Isotropic for Polynomial {
         Some(2 * deviatoric.max(volumetric))
     }
 
+    fn is_uniform(&self) -> bool {
+        true
+    }
+
     #[inline(always)]
     fn stress_free_energy_density<D: Scalar>(&self, i: &Invariants<D>, _at: &Point<D>) -> D {
         let table = &self.table;

@@ -48,6 +48,10 @@ impl Isotropic for SaintVenantKirchhoff {
         Some(4)
     }
 
+    fn is_uniform(&self) -> bool {
+        true
+    }
+
     fn domain(&self) -> &'static str {
         "finite"
     }

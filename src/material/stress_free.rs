@@ -39,6 +39,14 @@ impl<M: Material> Material for StressFree<M> {
     fn polynomial_degree(&self) -> Option<usize> {
         self.0.polynomial_degree()
     }
+
+    fn is_uniform(&self) -> bool {
+        self.0.is_uniform()
+    }
+
+    fn is_local(&self) -> bool {
+        self.0.is_local()
+    }
 }
 
 /// An isotropic law with its reference pressure: u − p(J−1), p = ∂u/∂J at rest, so that rest is free of stress.
@@ -63,6 +71,10 @@ impl<L: Isotropic> Isotropic for ReferencePressure<L> {
 
     fn degree(&self) -> Option<usize> {
         self.0.degree()
+    }
+
+    fn is_uniform(&self) -> bool {
+        self.0.is_uniform()
     }
 
     fn domain(&self) -> &'static str {

@@ -29,6 +29,19 @@ pub(super) struct Block<L> {
 }
 
 impl<L: Lane> Block<L> {
+    /// Points that do not move, on a straight reference.
+    #[inline(always)]
+    pub(super) fn at(x: L, y: L, weight: L) -> Self {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        Self { x, y, weight, x_rate: zero, y_rate: zero, weight_rate: zero, volume: one, inverse_volume: one }
+    }
+
+    /// The same point in every lane.
+    #[inline(always)]
+    pub(super) fn fixed(x: f64, y: f64, weight: f64) -> Self {
+        Self::at(L::splat(x), L::splat(y), L::splat(weight))
+    }
+
     /// The point of lane `i` in every lane, its weight in one.
     #[inline(always)]
     pub(super) fn only(&self, i: usize) -> Self {
@@ -122,6 +135,29 @@ impl<L: Lane> Sums<L> {
                 let mixed = u.hessian[packed_index(N, i, N - 1)];
                 self.rate[i] = w.mul_add(mixed, p.weight_rate.mul_add(u.gradient[i], self.rate[i]));
             }
+        }
+    }
+
+    /// The sums of one lane, where each lane is a strain.
+    #[inline(always)]
+    pub(super) fn read_lane(&self, lane: usize, request: Request, out: &mut Response) {
+        *out = Response::zero();
+        out.energy = self.energy.lane(lane);
+        let six = |v: &[L; 6]| lie::Wrench::from_array(std::array::from_fn(|i| v[i].lane(lane)));
+        if request >= Request::Wrench {
+            out.wrench = six(&self.wrench);
+        }
+        if request >= Request::Tangent {
+            for i in 0..6 {
+                for j in i..6 {
+                    let k = self.tangent[packed_index(6, i, j)].lane(lane);
+                    out.tangent[(i, j)] = k;
+                    out.tangent[(j, i)] = k;
+                }
+            }
+        }
+        if request >= Request::Rate {
+            out.wrench_rate = six(&self.rate);
         }
     }
 

@@ -15,7 +15,7 @@ use num_dual::{
 
 pub use jet::Jet;
 pub(crate) use jet::lanes_disagreed;
-pub use lane::{Lane, Portable};
+pub use lane::{Kernel, Lane, Portable, dispatch};
 pub use primitives::{
     Univariate, arsinh_sqrt_squared, cosh_multiple_m1, exp_m1_minus_x, pow, pow_1p_m1, x_minus_ln_1p,
 };

@@ -17,6 +17,7 @@ mod placement;
 mod point_cloud;
 mod polygon;
 mod profile;
+mod quadratic;
 mod rectangle;
 mod regular_polygon;
 mod resultant;
@@ -63,6 +64,22 @@ pub trait CrossSection: Send + Sync {
     /// [`Error::Inadmissible`](crate::Error::Inadmissible) where the material cannot be strained so;
     /// [`Error::InvalidAt`](crate::Error::InvalidAt) where a size of the section or the strain is not what it must be.
     fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response>;
+
+    /// As [`respond`](Self::respond) for many stations and strains at once, which what assembles elements wants.
+    ///
+    /// # Errors
+    /// As [`respond`](Self::respond), for the first that fails.
+    fn respond_many(
+        &self,
+        sites: &[(Station, Strain)],
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        for ((at, strain), out) in sites.iter().zip(out) {
+            *out = self.respond(at, strain, request)?;
+        }
+        Ok(())
+    }
 
     /// The strain energy per length U = ∫u dA, J/m.
     ///
@@ -111,6 +128,15 @@ pub trait CrossSection: Send + Sync {
 impl CrossSection for Box<dyn CrossSection> {
     fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
         (**self).respond(at, strain, request)
+    }
+
+    fn respond_many(
+        &self,
+        sites: &[(Station, Strain)],
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        (**self).respond_many(sites, request, out)
     }
 
     fn adapt_to(&mut self, at: &Station) -> Result<()> {

@@ -1,6 +1,7 @@
 use super::CrossSection;
 use super::degree::{Probe, QuadratureReport, StrainRange};
 use super::geometry::{AreaMoments, Geometry};
+use super::quadratic::Quadratic;
 use super::shape::Shape;
 use crate::error::{Error, Result};
 use crate::lie::{Strain, Twist};
@@ -45,6 +46,7 @@ pub struct Section<S, M> {
     degree: usize,
     rule: Rule,
     fixed: Option<(Points, AreaMoments)>,
+    quadratic: Option<Quadratic>,
     adapted_to: Option<Twist>,
 }
 
@@ -80,8 +82,17 @@ impl<S: Shape, M: Material> Section<S, M> {
         let default = Self::DEFAULT_DEGREE.min(shape.max_degree());
         let degree = material.polynomial_degree().unwrap_or(default).max(Self::LEAST_DEGREE);
         let rule = shape.rule(degree)?;
-        Self { choice: DegreeChoice::Law, degree, rule, fixed: None, adapted_to: None, shape, material }
-            .prepared()
+        Self {
+            choice: DegreeChoice::Law,
+            degree,
+            rule,
+            fixed: None,
+            quadratic: None,
+            adapted_to: None,
+            shape,
+            material,
+        }
+        .prepared()
     }
 
     /// The same with a quadrature exact for polynomials of this degree in (x, y).
@@ -143,6 +154,7 @@ impl<S: Shape, M: Material> Section<S, M> {
         if self.shape.is_constant() {
             let points = self.shape.place(&self.rule, 0.0)?;
             let moments = AreaMoments::of(&points);
+            self.quadratic = Quadratic::of(&self.material, &points)?;
             self.fixed = Some((points, moments));
         }
         Ok(())
@@ -184,7 +196,31 @@ impl<S: Shape, M: Material> Section<S, M> {
 
 impl<S: Shape, M: Material> CrossSection for Section<S, M> {
     fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
+        if let (Some(quadratic), Some((points, _))) = (&self.quadratic, &self.fixed) {
+            if quadratic.holds(at) {
+                return quadratic.respond(points, at, strain, request);
+            }
+        }
         self.with_points(at.s, |points| self.material.integrate(points, at, strain, request))
+    }
+
+    fn respond_many(
+        &self,
+        sites: &[(Station, Strain)],
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        match &self.fixed {
+            Some((points, _)) if self.quadratic.is_none() => {
+                self.material.integrate_many(points, sites, request, out)
+            }
+            _ => {
+                for ((at, strain), out) in sites.iter().zip(out) {
+                    *out = self.respond(at, strain, request)?;
+                }
+                Ok(())
+            }
+        }
     }
 
     /// Raises the degree until the curvature of the reference is resolved; a degree that the user asked for stays.

@@ -227,11 +227,35 @@ impl Lane for f64 {
     }
 }
 
-/// A computation written once for any [`Lane`], to be run on the best one the machine has.
-pub(crate) trait Kernel {
+/// A computation written once for any [`Lane`], to be run on the best one the machine has: see [`dispatch`].
+///
+/// ```
+/// use hyperrod::scalar::{Kernel, Lane, dispatch};
+///
+/// struct SumOfSquares<'a>(&'a [f64]);
+///
+/// impl Kernel for SumOfSquares<'_> {
+///     type Output = f64;
+///
+///     #[inline(always)]
+///     fn run<L: Lane>(self) -> f64 {
+///         let mut sum = L::splat(0.0);
+///         for block in self.0.chunks_exact(L::LANES) {
+///             let x = L::load(block);
+///             sum = x.mul_add(x, sum);
+///         }
+///         sum.sum()
+///     }
+/// }
+///
+/// assert_eq!(dispatch(SumOfSquares(&[2.0; 80])), 320.0);
+/// ```
+pub trait Kernel {
+    /// What it computes.
     type Output;
 
-    /// Implementations are `#[inline(always)]`, so that the body is compiled with the instructions of its caller.
+    /// The computation. Mark it and what it calls `#[inline(always)]`, so that the body is compiled with the instructions of the
+    /// machine; closures cannot be marked so and are better avoided.
     fn run<L: Lane>(self) -> Self::Output;
 }
 
@@ -240,7 +264,7 @@ pub(crate) trait Kernel {
 /// The choice is made at run time and is the same for every call, so a default build is as fast as one with `RUSTFLAGS`, and
 /// results do not change from call to call.
 #[inline]
-pub(crate) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
     return x86::dispatch(kernel);
     #[cfg(not(target_arch = "x86_64"))]

@@ -1,35 +1,91 @@
+use std::fmt;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::Lane;
+#[cfg(target_arch = "x86_64")]
+use super::x86::pair;
 
-/// Four numbers in an array, for machines without a vector type of their own here; compilers make two or four of them a register.
-#[derive(Clone, Copy, Debug)]
-#[repr(align(32))]
-pub struct Portable([f64; 4]);
+/// Two numbers, for any machine.
+#[cfg(not(target_arch = "x86_64"))]
+mod pair {
+    pub(super) type Pair = [f64; 2];
 
-macro_rules! lanewise {
-    ($trait:ident, $method:ident, $op:tt) => {
+    macro_rules! lanewise {
+        ($($name:ident = $op:tt),*) => {
+            $(#[inline(always)]
+            pub(super) fn $name(a: Pair, b: Pair) -> Pair {
+                [a[0] $op b[0], a[1] $op b[1]]
+            })*
+        };
+    }
+    lanewise!(add = +, sub = -, mul = *, div = /);
+
+    #[inline(always)]
+    pub(super) fn new(a: f64, b: f64) -> Pair {
+        [a, b]
+    }
+    #[inline(always)]
+    pub(super) fn sqrt(a: Pair) -> Pair {
+        [a[0].sqrt(), a[1].sqrt()]
+    }
+    #[inline(always)]
+    pub(super) fn get(a: Pair) -> [f64; 2] {
+        a
+    }
+    #[inline(always)]
+    pub(super) fn select_lt(a: Pair, bound: Pair, yes: Pair, no: Pair) -> Pair {
+        let one = |i: usize| if a[i] < bound[i] { yes[i] } else { no[i] };
+        [one(0), one(1)]
+    }
+}
+
+use pair::Pair;
+
+/// Four numbers in two registers: for machines without wider vectors, and for real closures, which name their number type.
+#[derive(Clone, Copy)]
+pub struct Portable(Pair, Pair);
+
+impl Portable {
+    #[inline(always)]
+    fn to_array(self) -> [f64; 4] {
+        let ([a, b], [c, d]) = (pair::get(self.0), pair::get(self.1));
+        [a, b, c, d]
+    }
+
+    #[inline(always)]
+    fn from_array([a, b, c, d]: [f64; 4]) -> Self {
+        Self(pair::new(a, b), pair::new(c, d))
+    }
+}
+
+macro_rules! operator {
+    ($trait:ident, $method:ident) => {
         impl $trait for Portable {
             type Output = Self;
             #[inline(always)]
-            fn $method(self, o: Self) -> Self {
-                let (a, b) = (self.0, o.0);
-                Self([a[0] $op b[0], a[1] $op b[1], a[2] $op b[2], a[3] $op b[3]])
+            fn $method(self, other: Self) -> Self {
+                Self(pair::$method(self.0, other.0), pair::$method(self.1, other.1))
             }
         }
     };
 }
 
-lanewise!(Add, add, +);
-lanewise!(Sub, sub, -);
-lanewise!(Mul, mul, *);
-lanewise!(Div, div, /);
+operator!(Add, add);
+operator!(Sub, sub);
+operator!(Mul, mul);
+operator!(Div, div);
 
 impl Neg for Portable {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(self.0.map(|v| -v))
+        Self::splat(-0.0) - self // −0 − x = −x for every x, zero included
+    }
+}
+
+impl fmt::Debug for Portable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.to_array().fmt(f)
     }
 }
 
@@ -38,15 +94,15 @@ impl Lane for Portable {
 
     #[inline(always)]
     fn splat(value: f64) -> Self {
-        Self([value; 4])
+        Self(pair::new(value, value), pair::new(value, value))
     }
     #[inline(always)]
     fn load(slice: &[f64]) -> Self {
-        Self([slice[0], slice[1], slice[2], slice[3]])
+        Self(pair::new(slice[0], slice[1]), pair::new(slice[2], slice[3]))
     }
     #[inline(always)]
     fn lane(self, i: usize) -> f64 {
-        self.0[i]
+        self.to_array()[i]
     }
     #[inline(always)]
     fn mul_add(self, a: Self, b: Self) -> Self {
@@ -54,20 +110,20 @@ impl Lane for Portable {
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
-        Self(self.0.map(f64::sqrt))
+        Self(pair::sqrt(self.0), pair::sqrt(self.1))
     }
     #[inline(always)]
     fn select_lt(self, bound: Self, yes: Self, no: Self) -> Self {
-        Self(std::array::from_fn(|i| if self.0[i] < bound.0[i] { yes.0[i] } else { no.0[i] }))
+        Self(pair::select_lt(self.0, bound.0, yes.0, no.0), pair::select_lt(self.1, bound.1, yes.1, no.1))
     }
     #[inline(always)]
     fn split_exponent(self) -> (Self, Self) {
-        let parts = self.0.map(split_exponent);
-        (Self(parts.map(|p| p.0)), Self(parts.map(|p| p.1)))
+        let [a, b, c, d] = self.to_array().map(split_exponent);
+        (Self::from_array([a.0, b.0, c.0, d.0]), Self::from_array([a.1, b.1, c.1, d.1]))
     }
     #[inline(always)]
     fn scale_by_power_of_two(self, k: Self) -> Self {
-        self * Self(k.0.map(power_of_two))
+        self * Self::from_array(k.to_array().map(power_of_two))
     }
 }
 

@@ -220,3 +220,45 @@ impl Lane for Avx512 {
         unsafe { _mm512_reduce_add_pd(self.0) }
     }
 }
+
+/// Two numbers in a register that every x86-64 has (SSE2 is part of it), for [`Portable`].
+pub(super) mod pair {
+    use std::arch::x86_64::*;
+
+    pub(in super::super) type Pair = __m128d;
+
+    macro_rules! lanewise {
+        ($($name:ident = $intrinsic:ident),*) => {
+            $(#[inline(always)]
+            pub(in super::super) fn $name(a: Pair, b: Pair) -> Pair {
+                // SAFETY: SSE2 is part of x86-64.
+                unsafe { $intrinsic(a, b) }
+            })*
+        };
+    }
+    lanewise!(add = _mm_add_pd, sub = _mm_sub_pd, mul = _mm_mul_pd, div = _mm_div_pd);
+
+    #[inline(always)]
+    pub(in super::super) fn new(a: f64, b: f64) -> Pair {
+        // SAFETY: as above.
+        unsafe { _mm_set_pd(b, a) }
+    }
+    #[inline(always)]
+    pub(in super::super) fn sqrt(a: Pair) -> Pair {
+        // SAFETY: as above.
+        unsafe { _mm_sqrt_pd(a) }
+    }
+    #[inline(always)]
+    pub(in super::super) fn get(a: Pair) -> [f64; 2] {
+        // SAFETY: as above.
+        unsafe { [_mm_cvtsd_f64(a), _mm_cvtsd_f64(_mm_unpackhi_pd(a, a))] }
+    }
+    #[inline(always)]
+    pub(in super::super) fn select_lt(a: Pair, bound: Pair, yes: Pair, no: Pair) -> Pair {
+        // SAFETY: as above.
+        unsafe {
+            let mask = _mm_cmplt_pd(a, bound);
+            _mm_or_pd(_mm_and_pd(mask, yes), _mm_andnot_pd(mask, no))
+        }
+    }
+}
