@@ -116,7 +116,7 @@ fn integrate_closure(
     let law = ClosureLaw(energy_density);
     let sum = |site: Site<'_>| dispatch(ClosureKernel(&law, site));
     let response = sum(site);
-    if response.is_finite() { Ok(response) } else { Err(diagnose(DOMAIN, site, true, sum)) }
+    if response.energy.is_finite() { Ok(response) } else { Err(diagnose(DOMAIN, site, true, sum)) }
 }
 
 impl<F> Material for IsotropicClosure<F>
@@ -187,7 +187,7 @@ where
         let law = ClosureLaw(&self.0);
         let sum = |site: Site<'_>| dispatch(SectionalKernel(&law, site));
         let response = sum(site);
-        if response.is_finite() { Ok(response) } else { Err(diagnose(DOMAIN, site, false, sum)) }
+        if response.energy.is_finite() { Ok(response) } else { Err(diagnose(DOMAIN, site, false, sum)) }
     }
 
     fn polynomial_degree(&self) -> Option<usize> {

@@ -12,7 +12,7 @@ use super::response::{Points, Reference, Request, Response, Station, check_strai
 use super::sums::{Block, Sums};
 use crate::error::{Error, Result};
 use crate::lie::Strain;
-use crate::scalar::lane::{Kernel, MAX_LANES, dispatch};
+use crate::scalar::lane::{Kernel, dispatch};
 use crate::scalar::{Jet, Lane, Scalar, lanes_disagreed};
 
 /// The section and strain of one evaluation.
@@ -40,7 +40,7 @@ pub(super) fn integrate_local<M: Local + ?Sized>(
         Request::Rate => dispatch(LocalKernel { law, site, level: PhantomData::<Rate> }),
     };
     let response = sum(site);
-    if response.is_finite() { Ok(response) } else { Err(diagnose(law.domain(), site, true, sum)) }
+    if response.energy.is_finite() { Ok(response) } else { Err(diagnose(law.domain(), site, true, sum)) }
 }
 
 struct LocalKernel<'a, M: ?Sized, O> {
@@ -71,23 +71,25 @@ impl<M: Local + ?Sized, L: Lane, O: Level> Respond<L, O> for M {
     }
 }
 
-/// Goes through the points block by block, and lane by lane through a block whose lanes disagreed.
+/// Goes through the points block by block; once more, and lane by lane through the blocks whose lanes disagree, if any did.
 ///
-/// It leaves the loops with a single place where the law is evaluated, which is what makes compilers inline it there.
-struct Cursor {
+/// It leaves the loops with a single place where the law is evaluated, which is what makes compilers inline it there, and without a call
+/// in the first pass, which would spill every register.
+struct Walk {
+    points: usize,
+    lanes: usize,
+    careful: bool,
     block: usize,
     lane: Option<usize>,
-    lanes: usize,
-    points: usize,
 }
 
-impl Cursor {
+impl Walk {
     #[inline(always)]
-    fn new<L: Lane>(points: usize) -> Self {
-        Self { block: 0, lane: None, lanes: L::LANES, points }
+    fn over<L: Lane>(points: usize) -> Self {
+        Self { points, lanes: L::LANES, careful: false, block: 0, lane: None }
     }
 
-    /// The first point of the block to evaluate, and the one lane of it to use where it is taken apart.
+    /// The first point of the block to evaluate, and the one lane of it to use where it is taken apart; `None` at the end of the pass.
     #[inline(always)]
     fn place(&self) -> Option<(usize, Option<usize>)> {
         if self.block < self.points { Some((self.block, self.lane)) } else { None }
@@ -95,9 +97,13 @@ impl Cursor {
 
     /// Goes on; whether the block just evaluated counts. Lanes that disagree are all to be evaluated again, each on its own.
     #[inline(always)]
-    fn advance(&mut self, disagreed: bool) -> bool {
+    fn advance(&mut self) -> bool {
+        if !self.careful {
+            self.block += self.lanes;
+            return true;
+        }
         match self.lane {
-            None if disagreed => {
+            None if lanes_disagreed() => {
                 self.lane = Some(0);
                 return false;
             }
@@ -109,65 +115,65 @@ impl Cursor {
         }
         true
     }
+
+    /// At the end of a pass: whether another, careful one is needed, because lanes disagreed somewhere.
+    #[inline(always)]
+    fn again(&mut self) -> bool {
+        if self.careful || !lanes_disagreed() {
+            return false;
+        }
+        *self = Self { careful: true, block: 0, lane: None, ..*self };
+        true
+    }
 }
 
-/// The sum of a local law over blocks of points; its energy is NaN where a point is inadmissible.
+/// The sum of a local law over blocks of points; its energy is NaN where a point is inadmissible or any sum is not finite.
 #[inline(always)]
 pub(super) fn sum_local<L: Lane, O: Level, R: Respond<L, O> + ?Sized>(site: Site<'_>, law: &R) -> Response {
-    let mut sums = Sums::<L>::zero();
-    // the smallest J and reference volume; NaN is caught in the sums
-    let mut smallest = L::splat(f64::INFINITY);
     let xi = splat6(&site.strain.to_array());
-    let mut cursor = Cursor::new::<L>(site.points.len());
-    while let Some((q, lane)) = cursor.place() {
-        let mut block = load_block::<L, O>(site, q);
-        let mut fibre = fibre::<L, O>(&xi, L::splat(site.at.s), &site.at.reference, &block);
-        let j = L::splat(1.0) + fibre.gamma[2];
-        smallest = j.select_lt(smallest, j, smallest);
-        smallest = block.volume.select_lt(smallest, block.volume, smallest);
-        if let Some(lane) = lane {
-            block = block.only(lane);
-            fibre = fibre.only(lane);
+    let curved = site.at.reference.is_curved();
+    let mut walk = Walk::over::<L>(site.points.len());
+    loop {
+        let mut sums = Sums::<L>::zero();
+        // the smallest J and reference volume; NaN is caught in the sums
+        let mut smallest = L::splat(f64::INFINITY);
+        while let Some((q, lane)) = walk.place() {
+            let mut block = load_block::<L, O>(site, q, curved);
+            let mut fibre = fibre::<L, O>(&xi, L::splat(site.at.s), &site.at.reference, curved, &block);
+            let j = L::splat(1.0) + fibre.gamma[2];
+            smallest = j.select_lt(smallest, j, smallest);
+            smallest = block.volume.select_lt(smallest, block.volume, smallest);
+            if let Some(lane) = lane {
+                block = block.only(lane);
+                fibre = fibre.only(lane);
+            }
+            let local = law.respond_at(&fibre);
+            if walk.advance() {
+                sums.add_local::<O>(&block, &local);
+            }
         }
-        let local = law.respond_at(&fibre);
-        if cursor.advance(lanes_disagreed()) {
-            sums.add_local::<O>(&block, &local);
+        if !walk.again() {
+            return sums.finish(O::REQUEST, smallest.min_lane() > 0.0);
         }
     }
-    let mut response = sums.finish(O::REQUEST);
-    if !(smallest.min_lane() > 0.0) {
-        response.energy = f64::NAN;
-    }
-    response
 }
 
 /// Points q.. of the section, the last block filled up with copies of its first point at no weight.
 #[inline(always)]
-fn load_block<L: Lane, O: Level>(site: Site<'_>, q: usize) -> Block<L> {
+fn load_block<L: Lane, O: Level>(site: Site<'_>, q: usize, curved: bool) -> Block<L> {
     let points = site.points;
-    let (x, y) = (load(&points.x, q, points.x[q]), load(&points.y, q, points.y[q]));
-    let mut block = Block::at(x, y, load(&points.weight, q, 0.0));
+    let (x, y) = (L::load_or(&points.x[q..], points.x[q]), L::load_or(&points.y[q..], points.y[q]));
+    let mut block = Block::at(x, y, L::load_or(&points.weight[q..], 0.0));
     if let (true, Some(rates)) = (O::REQUEST >= Request::Rate, &points.rates) {
-        block.x_rate = load(&rates.x, q, rates.x[q]);
-        block.y_rate = load(&rates.y, q, rates.y[q]);
-        block.weight_rate = load(&rates.weight, q, 0.0);
+        block.x_rate = L::load_or(&rates.x[q..], rates.x[q]);
+        block.y_rate = L::load_or(&rates.y[q..], rates.y[q]);
+        block.weight_rate = L::load_or(&rates.weight[q..], 0.0);
     }
-    if site.at.reference.is_curved() {
+    if curved {
         block.volume = volume(&splat6(&site.at.reference.twist.to_array()), x, y);
         block.inverse_volume = L::splat(1.0) / block.volume;
     }
     block
-}
-
-#[inline(always)]
-fn load<L: Lane>(values: &[f64], q: usize, fill: f64) -> L {
-    if q + L::LANES <= values.len() {
-        return L::load(&values[q..]);
-    }
-    let mut padded = [fill; MAX_LANES];
-    let rest = &values[q..];
-    padded[..rest.len()].copy_from_slice(rest);
-    L::load(&padded)
 }
 
 #[inline(always)]
@@ -190,10 +196,16 @@ fn column<L: Lane>(xi: &[L; 6], x: L, y: L) -> [L; 3] {
 
 /// γ = B Δξ / j at a block of points, and its derivative in s at fixed Δξ: (B′ Δξ − γ j′) / j.
 #[inline(always)]
-pub(super) fn fibre<L: Lane, O: Level>(xi: &[L; 6], s: L, reference: &Reference, p: &Block<L>) -> Fibre<L> {
+pub(super) fn fibre<L: Lane, O: Level>(
+    xi: &[L; 6],
+    s: L,
+    reference: &Reference,
+    curved: bool,
+    p: &Block<L>,
+) -> Fibre<L> {
     let zero = L::splat(0.0);
     let mut gamma = column(xi, p.x, p.y);
-    if reference.is_curved() {
+    if curved {
         let inverse = p.inverse_volume;
         gamma = [gamma[0] * inverse, gamma[1] * inverse, gamma[2] * inverse];
     }
@@ -201,7 +213,7 @@ pub(super) fn fibre<L: Lane, O: Level>(xi: &[L; 6], s: L, reference: &Reference,
     if O::REQUEST >= Request::Rate {
         let moving = [xi[0], xi[1], xi[2], zero, zero, zero];
         gamma_rate = column(&moving, p.x_rate, p.y_rate);
-        if reference.is_curved() {
+        if curved {
             let turned = splat6(&reference.twist.to_array());
             let turned = [turned[0], turned[1], turned[2], zero, zero, zero];
             let d_volume =
@@ -276,7 +288,7 @@ pub(super) fn integrate_sectional<M: Sectional + ?Sized>(
 ) -> Result<Response> {
     let sum = |site: Site<'_>| dispatch(SectionalKernel { law, site, request });
     let response = sum(site);
-    if response.is_finite() { Ok(response) } else { Err(diagnose(law.domain(), site, false, sum)) }
+    if response.energy.is_finite() { Ok(response) } else { Err(diagnose(law.domain(), site, false, sum)) }
 }
 
 struct SectionalKernel<'a, M: ?Sized> {
@@ -312,7 +324,7 @@ impl<M: Sectional + ?Sized, J: Scalar> EnergyJet<J> for M {
     }
 }
 
-/// The sum of a section-level law over blocks of points.
+/// The sum of a section-level law over blocks of points; its energy is NaN where any sum is not finite.
 #[inline(always)]
 pub(super) fn sum_sectional<L: Lane, const N: usize, const M: usize, R>(
     site: Site<'_>,
@@ -323,19 +335,23 @@ where
     R: EnergyJet<Jet<L, N, M>> + ?Sized,
 {
     let xi = sectional_variables(site.strain);
-    let mut sums = Sums::<L>::zero();
-    let mut cursor = Cursor::new::<L>(site.points.len());
-    while let Some((q, lane)) = cursor.place() {
-        let mut block = load_block::<L, Rate>(site, q);
-        if let Some(lane) = lane {
-            block = block.only(lane);
+    let mut walk = Walk::over::<L>(site.points.len());
+    loop {
+        let mut sums = Sums::<L>::zero();
+        while let Some((q, lane)) = walk.place() {
+            let mut block = load_block::<L, Rate>(site, q, false);
+            if let Some(lane) = lane {
+                block = block.only(lane);
+            }
+            let u = law.energy_jet(&xi, &sectional_point(&block, site.at.s));
+            if walk.advance() {
+                sums.add_sectional(&block, &u);
+            }
         }
-        let u = law.energy_jet(&xi, &sectional_point(&block, site.at.s));
-        if cursor.advance(lanes_disagreed()) {
-            sums.add_sectional(&block, &u);
+        if !walk.again() {
+            return sums.finish(request, true);
         }
     }
-    sums.finish(request)
 }
 
 /// Δξ as the first six of `N` variables, or as constants where `N` is 0.

@@ -161,13 +161,15 @@ impl<L: Lane> Sums<L> {
         }
     }
 
-    /// The sums over the lanes.
+    /// The sums over the lanes; the energy is NaN where the state is not admissible or a sum not finite.
     #[inline(always)]
-    pub(super) fn finish(&self, request: Request) -> Response {
+    pub(super) fn finish(&self, request: Request, admissible: bool) -> Response {
         let mut out = Response::zero();
+        let mut all = self.energy;
         out.energy = self.energy.sum();
         if request >= Request::Wrench {
             out.wrench = lie::Wrench::from_array(sum6(&self.wrench));
+            all = all + total(&self.wrench);
         }
         if request >= Request::Tangent {
             for i in 0..6 {
@@ -177,12 +179,27 @@ impl<L: Lane> Sums<L> {
                     out.tangent[(j, i)] = sum;
                 }
             }
+            all = all + total(&self.tangent);
         }
         if request >= Request::Rate {
             out.wrench_rate = lie::Wrench::from_array(sum6(&self.rate));
+            all = all + total(&self.rate);
+        }
+        // x − x is 0 where x is finite and NaN elsewhere
+        if !(admissible && (all - all).sum() == 0.0) {
+            out.energy = f64::NAN;
         }
         out
     }
+}
+
+#[inline(always)]
+fn total<L: Lane, const N: usize>(v: &[L; N]) -> L {
+    let mut sum = v[0];
+    for i in 1..N {
+        sum = sum + v[i];
+    }
+    sum
 }
 
 #[inline(always)]

@@ -15,7 +15,7 @@ thread_local! {
 /// Whether the lanes of some jet disagreed on a comparison since this was last asked.
 #[inline(always)]
 pub(crate) fn lanes_disagreed() -> bool {
-    DISAGREED.with(|mark| mark.replace(false))
+    DISAGREED.replace(false)
 }
 
 /// The answer all lanes give, or lane 0's with a mark.
@@ -24,7 +24,7 @@ pub(super) fn agree<L: Lane, T: PartialEq>(answer: impl Fn(usize) -> T) -> T {
     let first = answer(0);
     for i in 1..L::LANES {
         if answer(i) != first {
-            DISAGREED.with(|mark| mark.set(true));
+            DISAGREED.set(true);
         }
     }
     first

@@ -35,6 +35,19 @@ pub trait Lane:
     /// The first [`LANES`](Self::LANES) numbers of a slice, which must have as many.
     fn load(slice: &[f64]) -> Self;
 
+    /// The first numbers of a slice, `fill` in the lanes that it has none for.
+    #[inline(always)]
+    fn load_or(slice: &[f64], fill: f64) -> Self {
+        if slice.len() >= Self::LANES {
+            return Self::load(slice);
+        }
+        let mut values = [fill; MAX_LANES];
+        for (value, v) in values.iter_mut().zip(slice) {
+            *value = *v;
+        }
+        Self::load(&values)
+    }
+
     /// The number in lane `i`.
     fn lane(self, i: usize) -> f64;
 

@@ -174,6 +174,12 @@ impl Lane for Avx512 {
         unsafe { Self(_mm512_loadu_pd(slice.as_ptr())) }
     }
     #[inline(always)]
+    fn load_or(slice: &[f64], fill: f64) -> Self {
+        let mask = if slice.len() >= 8 { 0xff } else { (1_u8 << slice.len()) - 1 };
+        // SAFETY: see the module; only the lanes of the mask are read, and the slice has those.
+        unsafe { Self(_mm512_mask_loadu_pd(_mm512_set1_pd(fill), mask, slice.as_ptr())) }
+    }
+    #[inline(always)]
     fn lane(self, i: usize) -> f64 {
         let mut values = [0.0; 8];
         // SAFETY: the array has eight numbers.
