@@ -72,7 +72,7 @@ impl<M: Local + ?Sized, O: Level> Kernel for BatchKernel<'_, M, O> {
                 let point = Block::fixed(points.x[q], points.y[q], points.weight[q]);
                 let fibre = fibre::<L, O>(&xi, s, &block[0].0.reference, false, &point);
                 let j = L::splat(1.0) + fibre.gamma[2];
-                smallest = j.select_lt(smallest, j, smallest);
+                smallest = smallest.min(j);
                 let local = Respond::<L, O>::respond_at(self.law, &fibre);
                 sums.add_local::<O>(&point, &local);
             }

@@ -1,5 +1,5 @@
 use super::differentiate::{Fibre, FibreResponse, Rate, unpack};
-use super::integrate::{EnergyJet, Respond, Site, diagnose, sum_local, sum_sectional};
+use super::integrate::{EnergyJet, Respond, Site, respond, sum_local, sum_sectional};
 use super::kinematics::{Deformation, Invariants, Point};
 use super::law::Material;
 use super::response::{Points, Request, Response, Station};
@@ -72,7 +72,7 @@ where
 }
 
 /// Runs a closure on blocks of points inside the best instruction set of the machine.
-struct ClosureKernel<'a, F>(&'a ClosureLaw<F>, Site<'a>);
+struct ClosureKernel<'a, F>(&'a ClosureLaw<F>, Site<'a>, &'a mut Response);
 
 struct ClosureLaw<F>(F);
 
@@ -100,11 +100,11 @@ impl<F> Kernel for ClosureKernel<'_, F>
 where
     F: Fn(&Deformation<LocalJet>, &Point<LocalJet>) -> LocalJet,
 {
-    type Output = Response;
+    type Output = ();
 
     #[inline(always)]
-    fn run<L: Lane>(self) -> Response {
-        sum_local::<Portable, Rate, _>(self.1, self.0)
+    fn run<L: Lane>(self) {
+        sum_local::<Portable, Rate, _>(self.1, self.0, self.2);
     }
 }
 
@@ -114,9 +114,7 @@ fn integrate_closure(
     site: Site<'_>,
 ) -> Result<Response> {
     let law = ClosureLaw(energy_density);
-    let sum = |site: Site<'_>| dispatch(ClosureKernel(&law, site));
-    let response = sum(site);
-    if response.energy.is_finite() { Ok(response) } else { Err(diagnose(DOMAIN, site, true, sum)) }
+    respond(DOMAIN, site, true, |site, out| dispatch(ClosureKernel(&law, site, out)))
 }
 
 impl<F> Material for IsotropicClosure<F>
@@ -158,17 +156,17 @@ where
 }
 
 /// As [`ClosureKernel`], for a section-level closure.
-struct SectionalKernel<'a, F>(&'a ClosureLaw<F>, Site<'a>);
+struct SectionalKernel<'a, F>(&'a ClosureLaw<F>, Site<'a>, &'a mut Response);
 
 impl<F> Kernel for SectionalKernel<'_, F>
 where
     F: Fn(&Strain<SectionalJet>, &Point<SectionalJet>) -> SectionalJet,
 {
-    type Output = Response;
+    type Output = ();
 
     #[inline(always)]
-    fn run<L: Lane>(self) -> Response {
-        sum_sectional(self.1, Request::Rate, self.0)
+    fn run<L: Lane>(self) {
+        sum_sectional(self.1, Request::Rate, self.0, self.2);
     }
 }
 
@@ -185,9 +183,7 @@ where
     ) -> Result<Response> {
         let site = Site { points, at, strain };
         let law = ClosureLaw(&self.0);
-        let sum = |site: Site<'_>| dispatch(SectionalKernel(&law, site));
-        let response = sum(site);
-        if response.energy.is_finite() { Ok(response) } else { Err(diagnose(DOMAIN, site, false, sum)) }
+        respond(DOMAIN, site, false, |site, out| dispatch(SectionalKernel(&law, site, out)))
     }
 
     fn polynomial_degree(&self) -> Option<usize> {

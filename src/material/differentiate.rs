@@ -90,9 +90,9 @@ impl<L: Lane> Fibre<L> {
         let mut b = Jet::variable(self.gamma[1], 1);
         let mut e = Jet::variable(self.gamma[2], 2);
         if N > 3 {
-            a.gradient[3] = self.gamma_rate[0];
-            b.gradient[3] = self.gamma_rate[1];
-            e.gradient[3] = self.gamma_rate[2];
+            a = a.with_slope(3, self.gamma_rate[0]);
+            b = b.with_slope(3, self.gamma_rate[1]);
+            e = e.with_slope(3, self.gamma_rate[2]);
         }
         Deformation::from_gamma(Vector3::new(a, b, e))
     }
@@ -101,11 +101,7 @@ impl<L: Lane> Fibre<L> {
 /// A number that moves with the last of `N` variables.
 #[inline(always)]
 pub(super) fn along<L: Lane, const N: usize, const M: usize>(value: L, rate: L) -> Jet<L, N, M> {
-    let mut jet = Jet::constant(value);
-    if N > 0 {
-        jet.gradient[N - 1] = rate;
-    }
-    jet
+    Jet::constant(value).with_slope(N - 1, rate)
 }
 
 /// Value and derivatives of a local energy density u(γ) at a block of points, as far as asked.
@@ -195,10 +191,8 @@ pub(super) fn isotropic_response<M: Isotropic + ?Sized, L: Lane, O: Level>(
         }
         Request::Rate => {
             let [da, db, de] = fibre.gamma_rate;
-            let mut s = Jet::<L, 3, 6>::variable(shear, 0);
-            s.gradient[2] = two_a.mul_add(da, two_b * db);
-            let mut e = Jet::variable(e, 1);
-            e.gradient[2] = de;
+            let s = Jet::<L, 3, 6>::variable(shear, 0).with_slope(2, two_a.mul_add(da, two_b * db));
+            let e = Jet::variable(e, 1).with_slope(2, de);
             let u = law.energy_density(&Invariants::from_shear_and_stretch(s, e), &fibre.moving_point());
             let ([u_s, u_e, _], [ss, se, s_rate, ee, e_rate, _]) = (u.gradient, u.hessian);
             let mut out = chain_through_shear(u.value, [u_s, u_e], [ss, se, ee], [two_a, two_b]);

@@ -33,28 +33,46 @@ pub(super) fn integrate_local<M: Local + ?Sized>(
     site: Site<'_>,
     request: Request,
 ) -> Result<Response> {
-    let sum = |site: Site<'_>| match request {
-        Request::Energy => dispatch(LocalKernel { law, site, level: PhantomData::<Energy> }),
-        Request::Wrench => dispatch(LocalKernel { law, site, level: PhantomData::<Wrench> }),
-        Request::Tangent => dispatch(LocalKernel { law, site, level: PhantomData::<Tangent> }),
-        Request::Rate => dispatch(LocalKernel { law, site, level: PhantomData::<Rate> }),
+    let sum = |site: Site<'_>, out: &mut Response| match request {
+        Request::Energy => dispatch(LocalKernel { law, site, out, level: PhantomData::<Energy> }),
+        Request::Wrench => dispatch(LocalKernel { law, site, out, level: PhantomData::<Wrench> }),
+        Request::Tangent => dispatch(LocalKernel { law, site, out, level: PhantomData::<Tangent> }),
+        Request::Rate => dispatch(LocalKernel { law, site, out, level: PhantomData::<Rate> }),
     };
-    let response = sum(site);
-    if response.energy.is_finite() { Ok(response) } else { Err(diagnose(law.domain(), site, true, sum)) }
+    respond(law.domain(), site, true, sum)
+}
+
+/// The response of a sum over points, or what made it inadmissible. Summed in place: a copy of a response costs as much as a block of points.
+#[inline(always)]
+pub(super) fn respond(
+    domain: &'static str,
+    site: Site<'_>,
+    local: bool,
+    sum: impl Fn(Site<'_>, &mut Response),
+) -> Result<Response> {
+    let mut result = Ok(Response::zero());
+    if let Ok(response) = &mut result {
+        sum(site, response);
+        if !response.energy.is_finite() {
+            result = Err(diagnose(domain, site, local, sum));
+        }
+    }
+    result
 }
 
 struct LocalKernel<'a, M: ?Sized, O> {
     law: &'a M,
     site: Site<'a>,
+    out: &'a mut Response,
     level: PhantomData<O>,
 }
 
 impl<M: Local + ?Sized, O: Level> Kernel for LocalKernel<'_, M, O> {
-    type Output = Response;
+    type Output = ();
 
     #[inline(always)]
-    fn run<L: Lane>(self) -> Response {
-        sum_local::<L, O, _>(self.site, self.law)
+    fn run<L: Lane>(self) {
+        sum_local::<L, O, _>(self.site, self.law, self.out)
     }
 }
 
@@ -129,7 +147,11 @@ impl Walk {
 
 /// The sum of a local law over blocks of points; its energy is NaN where a point is inadmissible or any sum is not finite.
 #[inline(always)]
-pub(super) fn sum_local<L: Lane, O: Level, R: Respond<L, O> + ?Sized>(site: Site<'_>, law: &R) -> Response {
+pub(super) fn sum_local<L: Lane, O: Level, R: Respond<L, O> + ?Sized>(
+    site: Site<'_>,
+    law: &R,
+    out: &mut Response,
+) {
     let xi = splat6(&site.strain.to_array());
     let curved = site.at.reference.is_curved();
     let mut walk = Walk::over::<L>(site.points.len());
@@ -141,8 +163,10 @@ pub(super) fn sum_local<L: Lane, O: Level, R: Respond<L, O> + ?Sized>(site: Site
             let mut block = load_block::<L, O>(site, q, curved);
             let mut fibre = fibre::<L, O>(&xi, L::splat(site.at.s), &site.at.reference, curved, &block);
             let j = L::splat(1.0) + fibre.gamma[2];
-            smallest = j.select_lt(smallest, j, smallest);
-            smallest = block.volume.select_lt(smallest, block.volume, smallest);
+            smallest = smallest.min(j);
+            if curved {
+                smallest = smallest.min(block.volume);
+            }
             if let Some(lane) = lane {
                 block = block.only(lane);
                 fibre = fibre.only(lane);
@@ -153,7 +177,7 @@ pub(super) fn sum_local<L: Lane, O: Level, R: Respond<L, O> + ?Sized>(site: Site
             }
         }
         if !walk.again() {
-            return sums.finish(O::REQUEST, smallest.min_lane() > 0.0);
+            return sums.finish(O::REQUEST, smallest.min_lane() > 0.0, out);
         }
     }
 }
@@ -227,11 +251,12 @@ pub(super) fn fibre<L: Lane, O: Level>(
 }
 
 /// Finds what made a sum inadmissible or not finite, and where: by the same sum over one point at a time.
+#[cold]
 pub(super) fn diagnose(
     domain: &'static str,
     site: Site<'_>,
     local: bool,
-    sum: impl Fn(Site<'_>) -> Response,
+    sum: impl Fn(Site<'_>, &mut Response),
 ) -> Error {
     let Site { points, at, strain } = site;
     if let Err(error) = check_strain(strain, at.s) {
@@ -251,7 +276,9 @@ pub(super) fn diagnose(
             }
         }
         let one = Points { x: vec![x], y: vec![y], weight: vec![1.0], rates: None };
-        let u = sum(Site { points: &one, ..site }).energy;
+        let mut response = Response::zero();
+        sum(Site { points: &one, ..site }, &mut response);
+        let u = response.energy;
         if !u.is_finite() {
             return inadmissible("energy density", u, domain, at.s, x, y);
         }
@@ -286,28 +313,28 @@ pub(super) fn integrate_sectional<M: Sectional + ?Sized>(
     site: Site<'_>,
     request: Request,
 ) -> Result<Response> {
-    let sum = |site: Site<'_>| dispatch(SectionalKernel { law, site, request });
-    let response = sum(site);
-    if response.energy.is_finite() { Ok(response) } else { Err(diagnose(law.domain(), site, false, sum)) }
+    let sum = |site: Site<'_>, out: &mut Response| dispatch(SectionalKernel { law, site, request, out });
+    respond(law.domain(), site, false, sum)
 }
 
 struct SectionalKernel<'a, M: ?Sized> {
     law: &'a M,
     site: Site<'a>,
     request: Request,
+    out: &'a mut Response,
 }
 
 impl<M: Sectional + ?Sized> Kernel for SectionalKernel<'_, M> {
-    type Output = Response;
+    type Output = ();
 
     #[inline(always)]
-    fn run<L: Lane>(self) -> Response {
-        let Self { law, site, request } = self;
+    fn run<L: Lane>(self) {
+        let Self { law, site, request, out } = self;
         match request {
-            Request::Energy => sum_sectional::<L, 0, 0, _>(site, request, law),
-            Request::Wrench => sum_sectional::<L, 6, 0, _>(site, request, law),
-            Request::Tangent => sum_sectional::<L, 6, 21, _>(site, request, law),
-            Request::Rate => sum_sectional::<L, 7, 28, _>(site, request, law),
+            Request::Energy => sum_sectional::<L, 0, 0, _>(site, request, law, out),
+            Request::Wrench => sum_sectional::<L, 6, 0, _>(site, request, law, out),
+            Request::Tangent => sum_sectional::<L, 6, 21, _>(site, request, law, out),
+            Request::Rate => sum_sectional::<L, 7, 28, _>(site, request, law, out),
         }
     }
 }
@@ -330,8 +357,8 @@ pub(super) fn sum_sectional<L: Lane, const N: usize, const M: usize, R>(
     site: Site<'_>,
     request: Request,
     law: &R,
-) -> Response
-where
+    out: &mut Response,
+) where
     R: EnergyJet<Jet<L, N, M>> + ?Sized,
 {
     let xi = sectional_variables(site.strain);
@@ -349,7 +376,7 @@ where
             }
         }
         if !walk.again() {
-            return sums.finish(request, true);
+            return sums.finish(request, true, out);
         }
     }
 }
@@ -359,10 +386,8 @@ where
 fn sectional_variables<L: Lane, const N: usize, const M: usize>(strain: &Strain) -> Strain<Jet<L, N, M>> {
     let mut xi = [Jet::constant(L::splat(0.0)); 6];
     for (i, value) in strain.to_array().into_iter().enumerate() {
-        xi[i].value = L::splat(value);
-        if N > 0 {
-            xi[i].gradient[i] = L::splat(1.0);
-        }
+        let value = L::splat(value);
+        xi[i] = if N > 0 { Jet::variable(value, i) } else { Jet::constant(value) };
     }
     Strain::from_array(xi)
 }

@@ -16,6 +16,9 @@ use super::lane::Lane;
 ///
 /// It implements [`num_dual::DualNum`], so any energy runs on it unchanged. **Comparisons and `re()` see one value**: where the
 /// lanes disagree on a comparison they answer for lane 0 and leave a mark, and the engine redoes those points one by one.
+///
+/// It also knows which of its derivatives are identically zero. In code that is inlined, as in a kernel, that is known when it is
+/// compiled and the work on zeros disappears: without it, a floating-point product with 0 has to be carried out.
 #[derive(Clone, Copy, Debug)]
 pub struct Jet<L, const N: usize, const M: usize> {
     /// Value.
@@ -24,6 +27,36 @@ pub struct Jet<L, const N: usize, const M: usize> {
     pub(crate) gradient: [L; N],
     /// Second derivatives, upper triangle by rows.
     pub(crate) hessian: [L; M],
+    /// Bit i: first derivative i may be anything but zero.
+    first: u32,
+    /// Bit k: second derivative k may be anything but zero.
+    second: u32,
+}
+
+/// The body for every index below `$n` (at most 7), written out: a loop is unrolled too late for the masks of zeros to be seen through.
+macro_rules! each {
+    ($i:ident < $n:expr, $body:block) => {
+        each!(@ $i, $n, $body, 0, 1, 2, 3, 4, 5, 6)
+    };
+    (@ $i:ident, $n:expr, $body:block, $($index:literal),*) => {
+        $(if $index < $n {
+            #[allow(non_upper_case_globals)]
+            const $i: usize = $index;
+            $body
+        })*
+    };
+}
+
+/// Where second derivative (i, j), i ≤ j, of n variables is stored.
+#[inline(always)]
+const fn packed(n: usize, i: usize, j: usize) -> usize {
+    i * n + j - i * (i + 1) / 2
+}
+
+/// Whether bit `i` of a mask is set.
+#[inline(always)]
+const fn has(mask: u32, i: usize) -> bool {
+    mask & (1 << i) != 0
 }
 
 impl<L: Lane, const N: usize, const M: usize> Jet<L, N, M> {
@@ -31,58 +64,76 @@ impl<L: Lane, const N: usize, const M: usize> Jet<L, N, M> {
     #[inline(always)]
     pub(crate) fn constant(value: L) -> Self {
         let zero = L::splat(0.0);
-        Self { value, gradient: [zero; N], hessian: [zero; M] }
+        Self { value, gradient: [zero; N], hessian: [zero; M], first: 0, second: 0 }
     }
 
     /// Variable number `index`.
     #[inline(always)]
     pub(crate) fn variable(value: L, index: usize) -> Self {
-        let mut jet = Self::constant(value);
-        jet.gradient[index] = L::splat(1.0);
-        jet
+        Self::constant(value).with_slope(index, L::splat(1.0))
     }
 
-    /// Whether second derivatives are carried.
-    const SECOND: bool = M > 0;
+    /// The same with a first derivative set.
+    #[inline(always)]
+    pub(crate) fn with_slope(mut self, index: usize, slope: L) -> Self {
+        self.gradient[index] = slope;
+        self.first |= 1 << index;
+        self
+    }
 
     /// f(self), from f, f′ and f″ at the value.
     #[inline(always)]
     pub(crate) fn chain(self, f0: L, f1: L, f2: L) -> Self {
-        let mut out = Self { value: f0, ..self };
-        for i in 0..N {
-            out.gradient[i] = self.gradient[i] * f1;
-        }
-        if Self::SECOND {
-            let mut k = 0;
-            for i in 0..N {
-                let factor = self.gradient[i] * f2;
-                for j in i..N {
-                    out.hessian[k] = factor.mul_add(self.gradient[j], self.hessian[k] * f1);
-                    k += 1;
-                }
+        let mut out = Self::constant(f0);
+        out.first = self.first;
+        each!(i < N, {
+            if has(self.first, i) {
+                out.gradient[i] = self.gradient[i] * f1;
             }
-        }
+            each!(j < N, {
+                if M > 0 && i <= j {
+                    let k = packed(N, i, j);
+                    if has(self.first, i) && has(self.first, j) {
+                        out.add_second(k, self.gradient[i] * self.gradient[j], f2);
+                    }
+                    if has(self.second, k) {
+                        out.add_second(k, self.hessian[k], f1);
+                    }
+                }
+            });
+        });
         out
+    }
+
+    /// Adds a × b to second derivative k.
+    #[inline(always)]
+    fn add_second(&mut self, k: usize, a: L, b: L) {
+        self.hessian[k] = if has(self.second, k) { a.mul_add(b, self.hessian[k]) } else { a * b };
+        self.second |= 1 << k;
     }
 
     /// self × factor.
     #[inline(always)]
-    pub(crate) fn times(self, factor: L) -> Self {
-        let mut out = Self { value: self.value * factor, ..self };
-        for i in 0..N {
-            out.gradient[i] = self.gradient[i] * factor;
-        }
-        for k in 0..M {
-            out.hessian[k] = self.hessian[k] * factor;
-        }
-        out
+    pub(crate) fn times(mut self, factor: L) -> Self {
+        self.value = self.value * factor;
+        each!(i < N, {
+            if has(self.first, i) {
+                self.gradient[i] = self.gradient[i] * factor;
+            }
+            each!(j < N, {
+                let k = packed(N, i, j);
+                if M > 0 && i <= j && has(self.second, k) {
+                    self.hessian[k] = self.hessian[k] * factor;
+                }
+            });
+        });
+        self
     }
 
     /// self², with half the products of a general one.
     #[inline(always)]
     pub(crate) fn squared(self) -> Self {
-        let twice = self.value + self.value;
-        self.chain(self.value * self.value, twice, L::splat(2.0))
+        self * self
     }
 
     /// 1 / self.
@@ -99,12 +150,22 @@ impl<L: Lane, const N: usize, const M: usize> Add for Jet<L, N, M> {
     #[inline(always)]
     fn add(mut self, other: Self) -> Self {
         self.value = self.value + other.value;
-        for i in 0..N {
-            self.gradient[i] = self.gradient[i] + other.gradient[i];
-        }
-        for k in 0..M {
-            self.hessian[k] = self.hessian[k] + other.hessian[k];
-        }
+        each!(i < N, {
+            if has(self.first & other.first, i) {
+                self.gradient[i] = self.gradient[i] + other.gradient[i];
+            } else if has(other.first, i) {
+                self.gradient[i] = other.gradient[i];
+            }
+            each!(j < N, {
+                let k = packed(N, i, j);
+                if M > 0 && i <= j && has(other.second, k) {
+                    let sum = self.hessian[k] + other.hessian[k];
+                    self.hessian[k] = if has(self.second, k) { sum } else { other.hessian[k] };
+                }
+            });
+        });
+        self.first |= other.first;
+        self.second |= other.second;
         self
     }
 }
@@ -114,12 +175,22 @@ impl<L: Lane, const N: usize, const M: usize> Sub for Jet<L, N, M> {
     #[inline(always)]
     fn sub(mut self, other: Self) -> Self {
         self.value = self.value - other.value;
-        for i in 0..N {
-            self.gradient[i] = self.gradient[i] - other.gradient[i];
-        }
-        for k in 0..M {
-            self.hessian[k] = self.hessian[k] - other.hessian[k];
-        }
+        each!(i < N, {
+            if has(self.first & other.first, i) {
+                self.gradient[i] = self.gradient[i] - other.gradient[i];
+            } else if has(other.first, i) {
+                self.gradient[i] = -other.gradient[i];
+            }
+            each!(j < N, {
+                let k = packed(N, i, j);
+                if M > 0 && i <= j && has(other.second, k) {
+                    let sum = self.hessian[k] - other.hessian[k];
+                    self.hessian[k] = if has(self.second, k) { sum } else { -other.hessian[k] };
+                }
+            });
+        });
+        self.first |= other.first;
+        self.second |= other.second;
         self
     }
 }
@@ -129,25 +200,36 @@ impl<L: Lane, const N: usize, const M: usize> Mul for Jet<L, N, M> {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let (a, b) = (self, other);
-        let mut out = Self { value: a.value * b.value, ..a };
-        for i in 0..N {
-            out.gradient[i] = a.gradient[i].mul_add(b.value, b.gradient[i] * a.value);
-        }
-        if Self::SECOND {
-            let mut k = 0;
-            for i in 0..N {
-                for j in i..N {
-                    let cross = if i == j {
-                        let product = a.gradient[i] * b.gradient[i];
-                        product + product
-                    } else {
-                        a.gradient[i].mul_add(b.gradient[j], a.gradient[j] * b.gradient[i])
-                    };
-                    out.hessian[k] = a.hessian[k].mul_add(b.value, b.hessian[k].mul_add(a.value, cross));
-                    k += 1;
-                }
+        let mut out = Self::constant(a.value * b.value);
+        out.first = a.first | b.first;
+        each!(i < N, {
+            if has(a.first & b.first, i) {
+                out.gradient[i] = a.gradient[i].mul_add(b.value, b.gradient[i] * a.value);
+            } else if has(a.first, i) {
+                out.gradient[i] = a.gradient[i] * b.value;
+            } else if has(b.first, i) {
+                out.gradient[i] = b.gradient[i] * a.value;
             }
-        }
+            each!(j < N, {
+                if M > 0 && i <= j {
+                    let k = packed(N, i, j);
+                    if has(a.first, i) && has(b.first, j) {
+                        out.add_second(k, a.gradient[i], b.gradient[j]);
+                    }
+                    if i == j && has(out.second, k) {
+                        out.hessian[k] = out.hessian[k] + out.hessian[k];
+                    } else if i != j && has(a.first, j) && has(b.first, i) {
+                        out.add_second(k, a.gradient[j], b.gradient[i]);
+                    }
+                    if has(a.second, k) {
+                        out.add_second(k, a.hessian[k], b.value);
+                    }
+                    if has(b.second, k) {
+                        out.add_second(k, b.hessian[k], a.value);
+                    }
+                }
+            });
+        });
         out
     }
 }
@@ -156,6 +238,6 @@ impl<L: Lane, const N: usize, const M: usize> Neg for Jet<L, N, M> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self { value: -self.value, gradient: self.gradient.map(|g| -g), hessian: self.hessian.map(|h| -h) }
+        Self::constant(L::splat(-0.0)) - self // −0 − x = −x for every x, zero included
     }
 }

@@ -60,6 +60,12 @@ pub trait Lane:
     /// Per lane `yes` where `self < bound`, `no` elsewhere (also for NaN).
     fn select_lt(self, bound: Self, yes: Self, no: Self) -> Self;
 
+    /// The smaller of each lane; which one, if either is NaN, is not said.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.select_lt(other, self, other)
+    }
+
     /// For a positive normal number, (m, k) with m ∈ [√½, √2) and x = m 2ᵏ.
     fn split_exponent(self) -> (Self, Self);
 
@@ -72,7 +78,7 @@ pub trait Lane:
         (0..Self::LANES).fold(0.0, |sum, i| sum + self.lane(i))
     }
 
-    /// The smallest number, passing over NaN.
+    /// The smallest number; which one, if any is NaN, is not said.
     #[inline(always)]
     fn min_lane(self) -> f64 {
         let mut smallest = f64::INFINITY;

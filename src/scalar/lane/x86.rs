@@ -29,6 +29,12 @@ pub(super) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
         // SAFETY: the features were just detected.
         return unsafe { run_avx2(kernel) };
     }
+    run_portable(kernel)
+}
+
+/// Kept out of line: it would only be in the way of the paths that are taken.
+#[inline(never)]
+fn run_portable<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Portable>()
 }
 
@@ -109,7 +115,7 @@ impl Lane for Avx2 {
     }
     #[inline(always)]
     fn load(slice: &[f64]) -> Self {
-        let slice = &slice[..Self::LANES];
+        assert!(slice.len() >= Self::LANES);
         // SAFETY: the slice has four numbers; unaligned loads are allowed.
         unsafe { Self(_mm256_loadu_pd(slice.as_ptr())) }
     }
@@ -124,6 +130,11 @@ impl Lane for Avx2 {
     fn mul_add(self, a: Self, b: Self) -> Self {
         // SAFETY: see the module.
         unsafe { Self(_mm256_fmadd_pd(self.0, a.0, b.0)) }
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        // SAFETY: see the module.
+        unsafe { Self(_mm256_min_pd(self.0, other.0)) }
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -169,13 +180,16 @@ impl Lane for Avx512 {
     }
     #[inline(always)]
     fn load(slice: &[f64]) -> Self {
-        let slice = &slice[..Self::LANES];
+        assert!(slice.len() >= Self::LANES);
         // SAFETY: the slice has eight numbers; unaligned loads are allowed.
         unsafe { Self(_mm512_loadu_pd(slice.as_ptr())) }
     }
     #[inline(always)]
     fn load_or(slice: &[f64], fill: f64) -> Self {
-        let mask = if slice.len() >= 8 { 0xff } else { (1_u8 << slice.len()) - 1 };
+        if slice.len() >= Self::LANES {
+            return Self::load(slice);
+        }
+        let mask = (1_u8 << slice.len()) - 1;
         // SAFETY: see the module; only the lanes of the mask are read, and the slice has those.
         unsafe { Self(_mm512_mask_loadu_pd(_mm512_set1_pd(fill), mask, slice.as_ptr())) }
     }
@@ -190,6 +204,11 @@ impl Lane for Avx512 {
     fn mul_add(self, a: Self, b: Self) -> Self {
         // SAFETY: see the module.
         unsafe { Self(_mm512_fmadd_pd(self.0, a.0, b.0)) }
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        // SAFETY: see the module.
+        unsafe { Self(_mm512_min_pd(self.0, other.0)) }
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -224,6 +243,11 @@ impl Lane for Avx512 {
     fn sum(self) -> f64 {
         // SAFETY: see the module. Fixed order: halves, quarters, pairs.
         unsafe { _mm512_reduce_add_pd(self.0) }
+    }
+    #[inline(always)]
+    fn min_lane(self) -> f64 {
+        // SAFETY: see the module.
+        unsafe { _mm512_reduce_min_pd(self.0) }
     }
 }
 
