@@ -401,3 +401,6 @@ fn sectional_point<L: Lane, const N: usize, const M: usize>(block: &Block<L>, s:
     }
     Point { x: Jet::constant(block.x), y: Jet::constant(block.y), s: Jet::constant(L::splat(s)) }
 }
+
+#[cfg(test)]
+mod tests;

@@ -191,7 +191,7 @@ impl<L: Lane, const N: usize, const M: usize> DualNum for Jet<L, N, M> {
             }
         }
     }
-    /// For x ≥ 0; at 0 the true limits, finite where they are (unlike num-dual's own numbers, which give NaN).
+    /// For x ≥ 0, or an integral p; at 0 the true limits, finite where they are (unlike num-dual's own numbers, which give NaN).
     #[inline(always)]
     fn powf(&self, p: f64) -> Self {
         let mut first = L::splat(0.0);

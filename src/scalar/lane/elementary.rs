@@ -5,7 +5,7 @@
 
 use super::Lane;
 
-/// ln 2 with 21 bits, so that k ln 2 is exact for the exponents there are, and the rest of it.
+/// ln 2 with 32 bits, so that k ln 2 is exact for the exponents there are, and the rest of it.
 const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
 const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 
@@ -125,8 +125,8 @@ fn reduced_exp_m1<L: Lane>(x: L) -> (L, L) {
 fn saturate<L: Lane>(x: L, inside: L, floor: f64) -> L {
     let bounded = x.select_lt(L::splat(709.0), inside, L::splat(f64::INFINITY));
     let bounded = x.select_lt(L::splat(-708.0), L::splat(floor), bounded);
-    // a NaN is below nothing: it passes through the sum
-    bounded + (x - x).select_lt(L::splat(1.0), L::splat(0.0), x)
+    // NaN and +∞ pass on
+    x.select_lt(L::splat(f64::INFINITY), bounded, x)
 }
 
 #[inline(always)]
@@ -148,7 +148,7 @@ pub(super) fn exp_m1<L: Lane>(x: L) -> L {
 #[inline(always)]
 fn clamp_exponent<L: Lane>(k: L) -> L {
     let low = k.select_lt(L::splat(-1022.0), L::splat(-1022.0), k);
-    low.select_lt(L::splat(1022.0), low, L::splat(1022.0))
+    low.select_lt(L::splat(1023.0), low, L::splat(1023.0))
 }
 
 /// a + b = s + e exactly, for |a| ≥ |b| or a = 0. Source: Dekker (1971), Numer. Math. 18, 224.
@@ -175,14 +175,16 @@ fn two_product<L: Lane>(a: L, b: L) -> (L, L) {
     (p, ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low)
 }
 
-/// xᵖ = exp(p ln x), with ln x and the product carried to about 70 bits: else an error of |p ln x| ulp.
+/// xᵖ = exp(p ln x), with ln x and the product carried to about 70 bits: else an error of |p ln x| ulp. Of a negative x its size, with
+/// the sign that an integral p gives.
 #[inline(always)]
 pub(super) fn powf<L: Lane>(x: L, p: f64) -> L {
     let zero = L::splat(0.0);
     let tiny = L::splat(f64::MIN_POSITIVE);
-    let normal = x.select_lt(tiny, x * L::splat(TWO_54), x);
+    let size = x.abs();
+    let normal = size.select_lt(tiny, size * L::splat(TWO_54), size);
     let (m, k) = normal.split_exponent();
-    let k = x.select_lt(tiny, k - L::splat(54.0), k);
+    let k = size.select_lt(tiny, k - L::splat(54.0), k);
     let f = m - L::splat(1.0);
     let (high, rest) = two_sum(k * L::splat(LN_2_HIGH), f);
     let low = rest + (k * L::splat(LN_2_LOW) - small_remainder(f));
@@ -191,17 +193,23 @@ pub(super) fn powf<L: Lane>(x: L, p: f64) -> L {
     let (product, error) = two_product(high, power);
     let correction = error + low * power;
     let exponential = product.exp();
+    // beyond, 0 or ∞ already, and a correction that may be NaN
     let positive =
-        product.abs().select_lt(L::splat(700.0), exponential + exponential * correction, exponential);
-    let at_zero = if p > 0.0 {
-        0.0
-    } else if p == 0.0 {
-        1.0
-    } else {
-        f64::INFINITY
+        product.abs().select_lt(L::splat(709.0), exponential + exponential * correction, exponential);
+    let sign = match (p.trunc() == p, p % 2.0 == 0.0) {
+        (true, true) => 1.0,
+        (true, false) => -1.0,
+        (false, _) => f64::NAN,
     };
-    let non_negative = zero.select_lt(x, positive, L::splat(at_zero));
-    let result = x.select_lt(zero, L::splat(f64::NAN), non_negative);
-    // NaN and ∞ in, NaN out
-    result + (x - x)
+    // ∞ and NaN pass on, unless p is 0
+    let (at_zero, beyond) = if p > 0.0 {
+        (0.0, size)
+    } else if p == 0.0 {
+        (1.0, L::splat(1.0))
+    } else {
+        (f64::INFINITY, L::splat(1.0) / size)
+    };
+    let inside = zero.select_lt(size, positive, L::splat(at_zero));
+    let result = size.select_lt(L::splat(f64::INFINITY), inside, beyond);
+    x.select_lt(zero, result * L::splat(sign), result)
 }

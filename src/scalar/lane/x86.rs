@@ -38,6 +38,19 @@ fn run_portable<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Portable>()
 }
 
+/// Runs a kernel on each of the instruction sets this machine has, by name.
+#[cfg(test)]
+pub(super) fn run_on_each<K: Kernel + Clone>(kernel: &K, mut visit: impl FnMut(&'static str, K::Output)) {
+    if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+        // SAFETY: the features were just detected.
+        visit("AVX-512", unsafe { run_avx512(kernel.clone()) });
+    }
+    if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+        // SAFETY: the features were just detected.
+        visit("AVX2", unsafe { run_avx2(kernel.clone()) });
+    }
+}
+
 #[target_feature(enable = "avx512f,avx512dq,fma")]
 fn run_avx512<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Avx512>()
