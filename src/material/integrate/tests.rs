@@ -10,15 +10,43 @@ use crate::material::{
 };
 use crate::scalar::lane::run_on_each;
 
-impl<M: ?Sized, O> Clone for LocalKernel<'_, M, O> {
+/// A local law on one site, as a kernel that gives its response and can be run again.
+struct LocalOnce<'a, M, O>(&'a M, Site<'a>, PhantomData<O>);
+
+impl<M, O> Clone for LocalOnce<'_, M, O> {
     fn clone(&self) -> Self {
-        Self { law: self.law, site: self.site, level: PhantomData }
+        Self(self.0, self.1, PhantomData)
     }
 }
 
-impl<M: ?Sized> Clone for SectionalKernel<'_, M> {
+impl<M: Local, O: Level> Kernel for LocalOnce<'_, M, O> {
+    type Output = Response;
+
+    #[inline(always)]
+    fn run<L: Lane>(self) -> Response {
+        let mut out = Response::zero();
+        LocalKernel { law: self.0, site: self.1, out: &mut out, level: PhantomData::<O> }.run::<L>();
+        out
+    }
+}
+
+/// A section-level law on one site, likewise.
+struct SectionalOnce<'a, M>(&'a M, Site<'a>, Request);
+
+impl<M> Clone for SectionalOnce<'_, M> {
     fn clone(&self) -> Self {
-        Self { law: self.law, site: self.site, request: self.request }
+        Self(self.0, self.1, self.2)
+    }
+}
+
+impl<M: Sectional> Kernel for SectionalOnce<'_, M> {
+    type Output = Response;
+
+    #[inline(always)]
+    fn run<L: Lane>(self) -> Response {
+        let mut out = Response::zero();
+        SectionalKernel { law: self.0, site: self.1, request: self.2, out: &mut out }.run::<L>();
+        out
     }
 }
 
@@ -110,10 +138,10 @@ fn local_law<M: Local>(name: &str, law: M) {
             for strain in &strains() {
                 let site = Site { points: &points, at, strain };
                 let law = &law;
-                agree(name, &answers(LocalKernel { law, site, level: PhantomData::<Energy> }));
-                agree(name, &answers(LocalKernel { law, site, level: PhantomData::<Wrench> }));
-                agree(name, &answers(LocalKernel { law, site, level: PhantomData::<Tangent> }));
-                agree(name, &answers(LocalKernel { law, site, level: PhantomData::<Rate> }));
+                agree(name, &answers(LocalOnce(law, site, PhantomData::<Energy>)));
+                agree(name, &answers(LocalOnce(law, site, PhantomData::<Wrench>)));
+                agree(name, &answers(LocalOnce(law, site, PhantomData::<Tangent>)));
+                agree(name, &answers(LocalOnce(law, site, PhantomData::<Rate>)));
             }
         }
     }
@@ -138,7 +166,7 @@ fn sectional_laws_answer_alike_on_every_kind_of_lane_and_to_the_bit_when_repeate
             let at = &stations()[0];
             for request in [Request::Energy, Request::Wrench, Request::Tangent, Request::Rate] {
                 let site = Site { points: &points, at, strain };
-                agree("linear elastic", &answers(SectionalKernel { law, site, request }));
+                agree("linear elastic", &answers(SectionalOnce(law, site, request)));
             }
         }
     }

@@ -218,6 +218,8 @@ impl Kernel for Basic {
         let scalar =
             |f: &dyn Fn(f64, f64) -> f64| (0..L::LANES).map(|i| f(self.a[i], self.b[i])).collect::<Vec<_>>();
         let (three, yes, no) = (L::splat(3.0), L::splat(1.0), L::splat(2.0));
+        let finite = |a: f64, _: f64| if a < INF { a } else { 2.0 };
+        let below = a.select_lt(L::splat(INF), a, no);
         vec![
             ("load", each(a), scalar(&|a, _| a)),
             ("splat", each(three), scalar(&|_, _| 3.0)),
@@ -234,7 +236,9 @@ impl Kernel for Basic {
             ("spread", each(a.spread(L::LANES - 1)), scalar(&|_, _| self.a[L::LANES - 1])),
             ("isolate", each(b.isolate(L::LANES - 1))[..1].to_vec(), vec![self.b[L::LANES - 1]]),
             ("isolate, others", each(b.isolate(0))[1..].to_vec(), vec![0.0; L::LANES - 1]),
-            ("min_lane", vec![a.min_lane()], vec![scalar(&|a, _| a).into_iter().fold(INF, f64::min)]),
+            // NaN and ∞ replaced: with NaN the smallest is not defined
+            ("min_lane", vec![below.min_lane()], vec![scalar(&finite).into_iter().fold(INF, f64::min)]),
+            ("min", each(below.min(three)), scalar(&|a, b| finite(a, b).min(3.0))),
         ]
     }
 }
