@@ -240,23 +240,19 @@ pub fn num_dual_six(law: &impl Sectional, points: &Points, strain: &Strain) -> R
     Response { energy, wrench, tangent, wrench_rate: Wrench::zero() }
 }
 
-/// Largest difference of two responses, each part relative to its own largest entry.
-pub fn difference(a: &Response, b: &Response) -> f64 {
-    let relative = |x: &[f64], y: &[f64]| {
-        let size = x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        x.iter().zip(y).fold(0.0_f64, |m, (u, v)| m.max((u - v).abs())) / size
-    };
-    let wrench = |w: &Wrench| {
-        let [m_x, m_y, m_z, n_x, n_y, n_z] = w.to_array();
-        ([m_x, m_y, m_z], [n_x, n_y, n_z])
-    };
-    let block = |k: &Response, r: usize, c: usize| {
-        k.tangent.fixed_view::<3, 3>(r, c).iter().copied().collect::<Vec<_>>()
-    };
-    let ((m_a, n_a), (m_b, n_b)) = (wrench(&a.wrench), wrench(&b.wrench));
-    let mut worst = relative(&[a.energy], &[b.energy]).max(relative(&m_a, &m_b)).max(relative(&n_a, &n_b));
-    for (r, c) in [(0, 0), (0, 3), (3, 3)] {
-        worst = worst.max(relative(&block(a, r, c), &block(b, r, c)));
+/// Largest difference of two responses: energies relative to themselves, forces and moments to the largest force (times the radius),
+/// blocks of the tangent to its largest axial entry (times the radius, and squared).
+pub fn difference(a: &Response, b: &Response, radius: f64) -> f64 {
+    let unit = |i: usize| if i < 3 { radius } else { 1.0 };
+    let force = a.wrench.force.amax();
+    let stiffness = a.tangent.fixed_view::<3, 3>(3, 3).amax();
+    let mut worst = ((a.energy - b.energy) / a.energy).abs();
+    for (i, (p, q)) in a.wrench.to_array().into_iter().zip(b.wrench.to_array()).enumerate() {
+        worst = worst.max((p - q).abs() / (force * unit(i)));
+        for j in 0..6 {
+            let k = (a.tangent[(i, j)] - b.tangent[(i, j)]).abs();
+            worst = worst.max(k / (stiffness * unit(i) * unit(j)));
+        }
     }
     worst
 }

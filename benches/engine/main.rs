@@ -2,6 +2,7 @@
 //!
 //! `cargo run --release --example engine_speed` prints the same as a table of ratios.
 
+#[allow(dead_code, reason = "the example compares values as well")]
 mod cases;
 
 use cases::{

@@ -76,14 +76,11 @@ impl<M: Local + ?Sized, O: Level> Kernel for BatchKernel<'_, M, O> {
                 let local = Respond::<L, O>::respond_at(self.law, &fibre);
                 sums.add_local::<O>(&point, &local);
             }
-            let mut fine = !lanes_disagreed() && smallest.min_lane() > 0.0;
-            for i in 0..L::LANES {
-                let response = &mut out[done + i];
-                sums.read_lane(i, O::REQUEST, response);
-                fine &= response.is_finite();
-            }
-            if !fine {
+            if lanes_disagreed() || !(smallest.min_lane() > 0.0 && sums.is_finite(O::REQUEST)) {
                 break;
+            }
+            for (i, response) in out[done..done + L::LANES].iter_mut().enumerate() {
+                sums.read_lane(i, O::REQUEST, response);
             }
             done += L::LANES;
         }

@@ -186,18 +186,26 @@ pub(super) fn sum_local<L: Lane, O: Level, R: Respond<L, O> + ?Sized>(
 #[inline(always)]
 fn load_block<L: Lane, O: Level>(site: Site<'_>, q: usize, curved: bool) -> Block<L> {
     let points = site.points;
-    let (x, y) = (L::load_or(&points.x[q..], points.x[q]), L::load_or(&points.y[q..], points.y[q]));
-    let mut block = Block::at(x, y, L::load_or(&points.weight[q..], 0.0));
+    let [x, y, weight] = load_three(&points.x, &points.y, &points.weight, q);
+    let mut block = Block::at(x, y, weight);
     if let (true, Some(rates)) = (O::REQUEST >= Request::Rate, &points.rates) {
-        block.x_rate = L::load_or(&rates.x[q..], rates.x[q]);
-        block.y_rate = L::load_or(&rates.y[q..], rates.y[q]);
-        block.weight_rate = L::load_or(&rates.weight[q..], 0.0);
+        [block.x_rate, block.y_rate, block.weight_rate] = load_three(&rates.x, &rates.y, &rates.weight, q);
     }
     if curved {
         block.volume = volume(&splat6(&site.at.reference.twist.to_array()), x, y);
         block.inverse_volume = L::splat(1.0) / block.volume;
     }
     block
+}
+
+/// A block of two coordinates and a weight.
+#[inline(always)]
+fn load_three<L: Lane>(x: &[f64], y: &[f64], w: &[f64], q: usize) -> [L; 3] {
+    let (x, y, w) = (&x[q..], &y[q..], &w[q..]);
+    if x.len() >= L::LANES && y.len() >= L::LANES && w.len() >= L::LANES {
+        return [L::load(x), L::load(y), L::load(w)];
+    }
+    [L::load_or(x, x[0]), L::load_or(y, y[0]), L::load_or(w, 0.0)]
 }
 
 #[inline(always)]

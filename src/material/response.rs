@@ -41,13 +41,13 @@ impl Response {
     /// Whether every number is finite.
     #[inline(always)]
     pub fn is_finite(&self) -> bool {
-        // x − x is 0 for a finite x and NaN otherwise: one sum tells of all
-        let mut sum = self.energy - self.energy;
+        // 0 x is 0 for a finite x and NaN otherwise: one sum tells of all
+        let mut sum = 0.0 * self.energy;
         for v in self.tangent.as_slice() {
-            sum += v - v;
+            sum += 0.0 * v;
         }
         for v in self.wrench.to_array().into_iter().chain(self.wrench_rate.to_array()) {
-            sum += v - v;
+            sum += 0.0 * v;
         }
         sum == 0.0
     }

@@ -161,14 +161,29 @@ impl<L: Lane> Sums<L> {
         }
     }
 
+    /// Whether every sum that was asked for is finite in every lane.
+    #[inline(always)]
+    pub(super) fn is_finite(&self, request: Request) -> bool {
+        let mut all = self.energy;
+        if request >= Request::Wrench {
+            all = all + total(&self.wrench);
+        }
+        if request >= Request::Tangent {
+            all = all + total(&self.tangent);
+        }
+        if request >= Request::Rate {
+            all = all + total(&self.rate);
+        }
+        // 0 x is 0 where x is finite and NaN elsewhere
+        (L::splat(0.0) * all).sum() == 0.0
+    }
+
     /// Fills in the sums over the lanes; the energy is NaN where the state is not admissible or a sum not finite.
     #[inline(always)]
     pub(super) fn finish(&self, request: Request, admissible: bool, out: &mut Response) {
-        let mut all = self.energy;
         out.energy = self.energy.sum();
         if request >= Request::Wrench {
             out.wrench = lie::Wrench::from_array(sum6(&self.wrench));
-            all = all + total(&self.wrench);
         }
         if request >= Request::Tangent {
             for i in 0..6 {
@@ -178,14 +193,12 @@ impl<L: Lane> Sums<L> {
                     out.tangent[(j, i)] = sum;
                 }
             }
-            all = all + total(&self.tangent);
         }
         if request >= Request::Rate {
             out.wrench_rate = lie::Wrench::from_array(sum6(&self.rate));
-            all = all + total(&self.rate);
         }
-        // x − x is 0 where x is finite and NaN elsewhere; the energy alone speaks for itself
-        let finite = request == Request::Energy || (all - all).sum() == 0.0;
+        // the energy alone speaks for itself
+        let finite = request == Request::Energy || self.is_finite(request);
         if !(admissible && finite) {
             out.energy = f64::NAN;
         }

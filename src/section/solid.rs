@@ -196,10 +196,10 @@ impl<S: Shape, M: Material> Section<S, M> {
 
 impl<S: Shape, M: Material> CrossSection for Section<S, M> {
     fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
-        if let (Some(quadratic), Some((points, _))) = (&self.quadratic, &self.fixed) {
-            if quadratic.holds(at) {
-                return quadratic.respond(points, at, strain, request);
-            }
+        if let (Some(quadratic), Some((points, _))) = (&self.quadratic, &self.fixed)
+            && quadratic.holds(at)
+        {
+            return quadratic.respond(points, at, strain, request);
         }
         self.with_points(at.s, |points| self.material.integrate(points, at, strain, request))
     }

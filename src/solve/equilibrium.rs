@@ -108,7 +108,7 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
         for i in (0..n).rev() {
             let motion = &kinematics[i];
             let node_loads = match &loads {
-                Some(loads) => motion.to_node(&loads[i].map(|l| l.wrench)),
+                Some(loads) => motion.at_node(&loads[i].map(|l| l.wrench)),
                 None => [Wrench::zero(); S],
             };
             node_wrench[i] = motion.wrench_at_start(&self.table, &node_wrench[i + 1], &node_loads, h);

@@ -40,8 +40,7 @@ macro_rules! each {
     };
     (@ $i:ident, $n:expr, $body:block, $($index:literal),*) => {
         $(if $index < $n {
-            #[allow(non_upper_case_globals)]
-            const $i: usize = $index;
+            let $i: usize = $index;
             $body
         })*
     };

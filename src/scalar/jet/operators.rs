@@ -71,6 +71,7 @@ impl<L: Lane, const N: usize, const M: usize> Div for Jet<L, N, M> {
 }
 
 /// a − b trunc(a/b); the truncated quotient is taken as a constant.
+#[allow(clippy::suspicious_arithmetic_impl, reason = "that is what a remainder is")]
 impl<L: Lane, const N: usize, const M: usize> Rem for Jet<L, N, M> {
     type Output = Self;
     fn rem(self, other: Self) -> Self {

@@ -81,7 +81,7 @@ fn dual_residual<const S: usize>(
             let acceleration = in_body(&(pose * motion.stage[k]), &weight());
             Wrench::new(centre.cross(&acceleration), acceleration * Dual64::from_re(line.mass))
         });
-        loads.push(motion.to_node(&stage));
+        loads.push(motion.at_node(&stage));
         pose = pose * motion.end;
         motions.push(motion);
     }
