@@ -114,10 +114,10 @@ impl Cursor {
 /// The sum of a local law over blocks of points; its energy is NaN where a point is inadmissible.
 #[inline(always)]
 pub(super) fn sum_local<L: Lane, O: Level, R: Respond<L, O> + ?Sized>(site: Site<'_>, law: &R) -> Response {
-    let mut sums = Sums::<L>::zero();
+    let xi = splat6(&site.strain.to_array());
+    let mut sums = Sums::of(&xi);
     // the smallest J and reference volume; NaN is caught in the sums
     let mut smallest = L::splat(f64::INFINITY);
-    let xi = splat6(&site.strain.to_array());
     let mut cursor = Cursor::new::<L>(site.points.len());
     while let Some((q, lane)) = cursor.place() {
         let mut block = load_block::<L, O>(site, q);
@@ -323,7 +323,7 @@ where
     R: EnergyJet<Jet<L, N, M>> + ?Sized,
 {
     let xi = sectional_variables(site.strain);
-    let mut sums = Sums::<L>::zero();
+    let mut sums = Sums::of(&splat6(&site.strain.to_array()));
     let mut cursor = Cursor::new::<L>(site.points.len());
     while let Some((q, lane)) = cursor.place() {
         let mut block = load_block::<L, Rate>(site, q);
