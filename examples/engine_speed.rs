@@ -25,8 +25,11 @@ struct Case<'a> {
     name: &'static str,
     points: usize,
     law: Law,
-    run: Box<dyn Fn(&[Strain]) + 'a>,
+    run: Run<'a>,
 }
+
+/// Evaluates every one of the strains.
+type Run<'a> = Box<dyn Fn(&[Strain]) + 'a>;
 
 #[derive(Clone, Copy, PartialEq)]
 enum Law {
@@ -35,7 +38,7 @@ enum Law {
 }
 
 /// Evaluates every strain; each whole answer is used, so that no part of it is optimised away.
-fn each<'a, R>(respond: impl Fn(&Strain) -> R + 'a) -> Box<dyn Fn(&[Strain]) + 'a> {
+fn each<'a, R>(respond: impl Fn(&Strain) -> R + 'a) -> Run<'a> {
     Box::new(move |strains| {
         for strain in strains {
             black_box(&respond(black_box(strain)));
@@ -43,21 +46,17 @@ fn each<'a, R>(respond: impl Fn(&Strain) -> R + 'a) -> Box<dyn Fn(&[Strain]) + '
     })
 }
 
-fn engine<'a, M: Material>(
-    material: &'a M,
-    points: &'a Points,
-    request: Request,
-) -> Box<dyn Fn(&[Strain]) + 'a> {
+fn engine<'a, M: Material>(material: &'a M, points: &'a Points, request: Request) -> Run<'a> {
     let at = Station::straight(0.0);
     each(move |strain| material.integrate(points, &at, strain, request))
 }
 
-fn section<'a>(section: &'a dyn CrossSection, request: Request) -> Box<dyn Fn(&[Strain]) + 'a> {
+fn section<'a>(section: &'a dyn CrossSection, request: Request) -> Run<'a> {
     let at = Station::straight(0.0);
     each(move |strain| section.respond(&at, strain, request))
 }
 
-fn batch<'a>(section: &'a dyn CrossSection) -> Box<dyn Fn(&[Strain]) + 'a> {
+fn batch<'a>(section: &'a dyn CrossSection) -> Run<'a> {
     let at = Station::straight(0.0);
     Box::new(move |strains| {
         let sites: Vec<_> = strains.iter().map(|x| (at, *x)).collect();

@@ -66,7 +66,7 @@ impl<M: Local + ?Sized, O: Level> Kernel for BatchKernel<'_, M, O> {
         while done + L::LANES <= sites.len() {
             let block = &sites[done..done + L::LANES];
             let (xi, s) = gather::<L>(block);
-            let mut sums = Sums::<L>::zero();
+            let mut sums = Sums::of(&xi);
             let mut smallest = L::splat(f64::INFINITY);
             for q in 0..points.len() {
                 let point = Block::fixed(points.x[q], points.y[q], points.weight[q]);

@@ -156,7 +156,7 @@ pub(super) fn sum_local<L: Lane, O: Level, R: Respond<L, O> + ?Sized>(
     let curved = site.at.reference.is_curved();
     let mut walk = Walk::over::<L>(site.points.len());
     loop {
-        let mut sums = Sums::<L>::zero();
+        let mut sums = Sums::of(&xi);
         // the smallest J and reference volume; NaN is caught in the sums
         let mut smallest = L::splat(f64::INFINITY);
         while let Some((q, lane)) = walk.place() {
@@ -370,9 +370,10 @@ pub(super) fn sum_sectional<L: Lane, const N: usize, const M: usize, R>(
     R: EnergyJet<Jet<L, N, M>> + ?Sized,
 {
     let xi = sectional_variables(site.strain);
+    let components = splat6(&site.strain.to_array());
     let mut walk = Walk::over::<L>(site.points.len());
     loop {
-        let mut sums = Sums::<L>::zero();
+        let mut sums = Sums::of(&components);
         while let Some((q, lane)) = walk.place() {
             let mut block = load_block::<L, Rate>(site, q, false);
             if let Some(lane) = lane {

@@ -65,6 +65,14 @@ impl<L: Lane> Sums<L> {
         Self { energy: zero, wrench: [zero; 6], tangent: [zero; 21], rate: [zero; 6] }
     }
 
+    /// Zero, with an energy that is NaN where a component of the strain is not finite: a law need not look at every one.
+    #[inline(always)]
+    pub(super) fn of(xi: &[L; 6]) -> Self {
+        let [a, b, c, d, e, f] = *xi;
+        let energy = L::splat(0.0) * (((a + b) + (c + d)) + (e + f));
+        Self { energy, ..Self::zero() }
+    }
+
     /// Adds a block of a local law: w j u, w Bᵀ g, (w/j) Bᵀ h B and (w′ Bᵀ + w B′ᵀ) g + w Bᵀ g′.
     #[inline(always)]
     pub(super) fn add_local<O: Level>(&mut self, p: &Block<L>, local: &FibreResponse<L>) {
