@@ -240,13 +240,14 @@ pub fn num_dual_six(law: &impl Sectional, points: &Points, strain: &Strain) -> R
     Response { energy, wrench, tangent, wrench_rate: Wrench::zero() }
 }
 
-/// Largest difference of two responses: energies relative to themselves, forces and moments to the largest force (times the radius),
+/// Largest difference of two responses: energies relative to the work Σ |Ψ_i Δξ_i| (they may cancel), forces and moments to the largest force (times the radius),
 /// blocks of the tangent to its largest axial entry (times the radius, and squared).
-pub fn difference(a: &Response, b: &Response, radius: f64) -> f64 {
+pub fn difference(a: &Response, b: &Response, strain: &Strain, radius: f64) -> f64 {
     let unit = |i: usize| if i < 3 { radius } else { 1.0 };
     let force = a.wrench.force.amax();
     let stiffness = a.tangent.fixed_view::<3, 3>(3, 3).amax();
-    let mut worst = ((a.energy - b.energy) / a.energy).abs();
+    let work = a.wrench.to_array().iter().zip(strain.to_array()).map(|(p, x)| (p * x).abs()).sum::<f64>();
+    let mut worst = (a.energy - b.energy).abs() / work;
     for (i, (p, q)) in a.wrench.to_array().into_iter().zip(b.wrench.to_array()).enumerate() {
         worst = worst.max((p - q).abs() / (force * unit(i)));
         for j in 0..6 {
