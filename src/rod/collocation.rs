@@ -74,14 +74,12 @@ fn lagrange_coefficients<const S: usize>(c: &[f64; S]) -> [[f64; S]; S] {
     std::array::from_fn(|l| {
         let mut p = [0.0; S];
         p[0] = 1.0;
-        let mut degree = 0;
-        for m in (0..S).filter(|&m| m != l) {
+        for (degree, m) in (0..S).filter(|&m| m != l).enumerate() {
             let scale = 1.0 / (c[l] - c[m]);
             for j in (0..=degree + 1).rev() {
                 let lower = if j > 0 { p[j - 1] } else { 0.0 };
                 p[j] = (lower - c[m] * p[j]) * scale;
             }
-            degree += 1;
         }
         p
     })

@@ -21,7 +21,7 @@ impl<D: Scalar, const S: usize> Kinematics<D, S> {
     }
 
     /// The loads of the stages brought to the first node: F_l = Ad_l⁻ᵀ f̄_l.
-    pub(crate) fn to_node(&self, stage_loads: &[Wrench<D>; S]) -> [Wrench<D>; S] {
+    pub(crate) fn at_node(&self, stage_loads: &[Wrench<D>; S]) -> [Wrench<D>; S] {
         std::array::from_fn(|l| self.stage[l].adjoint_inverse().apply_transpose(&stage_loads[l]))
     }
 

@@ -3,26 +3,13 @@
 use nalgebra::{Matrix6, SMatrix, SVector};
 
 use super::chain::{EndRows, Transfer};
+use super::mesh::{Mesh, StageStrains};
 use crate::body::Elastic;
 use crate::error::{Error, Result};
 use crate::lie::{Pose, Strain, Twist, Wrench};
 use crate::load::LoadWrench;
 use crate::material::{Request, Response};
-use crate::rod::Rod;
-use crate::rod::collocation::Collocation;
 use crate::rod::element::{ElementState, Kinematics, Linearisation};
-
-/// Strains Δξ at the Gauss stages of every element.
-pub(crate) type StageStrains<const S: usize> = Vec<[Strain; S]>;
-
-/// A uniform mesh of collocation elements on a rod.
-pub(crate) struct Mesh<'a, B, const S: usize> {
-    pub(crate) rod: &'a Rod<B>,
-    pub(crate) table: Collocation<S>,
-    pub(crate) elements: usize,
-    /// ξ* at the stages.
-    reference: Vec<[Twist; S]>,
-}
 
 /// Everything that follows from the stage strains.
 pub(crate) struct Configuration<const S: usize> {
@@ -35,55 +22,10 @@ pub(crate) struct Configuration<const S: usize> {
     tip_load: LoadWrench,
 }
 
-impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
-    pub(crate) fn new(rod: &'a Rod<B>, elements: usize) -> Self {
-        let mut mesh = Self { rod, table: Collocation::gauss(), elements, reference: Vec::new() };
-        mesh.reference = (0..elements)
-            .map(|i| std::array::from_fn(|k| rod.body().reference(mesh.stage_s(i, k)).twist))
-            .collect();
-        mesh
-    }
-
-    /// Length of an element.
-    pub(crate) fn h(&self) -> f64 {
-        self.rod.body().length() / self.elements as f64
-    }
-
-    pub(crate) fn node_s(&self, i: usize) -> f64 {
-        self.rod.body().length() * (i as f64 / self.elements as f64)
-    }
-
-    pub(crate) fn stage_s(&self, i: usize, k: usize) -> f64 {
-        self.rod.body().length() * ((i as f64 + self.table.c[k]) / self.elements as f64)
-    }
-
-    /// ξ = ξ* + Δξ at the stages of element i.
-    pub(crate) fn twists(&self, i: usize, strains: &[Strain; S]) -> [Twist; S] {
-        std::array::from_fn(|k| self.reference[i][k] + strains[k])
-    }
-
-    /// The strains of this mesh interpolated onto one with `ratio` times as many elements.
-    pub(crate) fn prolong(&self, strains: &StageStrains<S>, ratio: usize) -> StageStrains<S> {
-        let mut fine = Vec::with_capacity(strains.len() * ratio);
-        for element in strains {
-            for part in 0..ratio {
-                fine.push(std::array::from_fn(|k| {
-                    let tau = (part as f64 + self.table.c[k]) / ratio as f64;
-                    let weights = self.table.interpolation(tau);
-                    let mut strain = Strain::zero();
-                    for l in 0..S {
-                        strain += element[l] * weights[l];
-                    }
-                    strain
-                }));
-            }
-        }
-        fine
-    }
-
+impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
     /// Poses forward, section responses, loads, and wrenches backward.
     pub(crate) fn configure(&self, strains: &StageStrains<S>) -> Result<Configuration<S>> {
-        let (n, h, body) = (self.elements, self.h(), self.rod.body());
+        let (n, body) = (self.elements(), self.rod.body());
         let mut node_pose = Vec::with_capacity(n + 1);
         let mut kinematics = Vec::with_capacity(n);
         let mut response = Vec::with_capacity(n);
@@ -95,7 +37,7 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
                 stage_response[k] = body.respond(self.stage_s(i, k), &element[k], Request::Tangent)?;
             }
             response.push(stage_response);
-            let motion = Kinematics::new(&self.table, &self.twists(i, element), h);
+            let motion = Kinematics::new(&self.table, &self.twists(i, element), self.h(i));
             pose = pose * motion.end;
             node_pose.push(pose);
             kinematics.push(motion);
@@ -106,9 +48,9 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
         let mut node_wrench = vec![tip_load.wrench; n + 1];
         let mut stage_wrench = vec![[Wrench::zero(); S]; n];
         for i in (0..n).rev() {
-            let motion = &kinematics[i];
+            let (motion, h) = (&kinematics[i], self.h(i));
             let node_loads = match &loads {
-                Some(loads) => motion.to_node(&loads[i].map(|l| l.wrench)),
+                Some(loads) => motion.at_node(&loads[i].map(|l| l.wrench)),
                 None => [Wrench::zero(); S],
             };
             node_wrench[i] = motion.wrench_at_start(&self.table, &node_wrench[i + 1], &node_loads, h);
@@ -125,7 +67,7 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
         if self.rod.loads().is_empty() {
             return Ok(None);
         }
-        let mut loads = Vec::with_capacity(self.elements);
+        let mut loads = Vec::with_capacity(self.elements());
         for (i, motion) in kinematics.iter().enumerate() {
             let mut stage = [no_load(); S];
             for k in 0..S {
@@ -155,11 +97,11 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
         strains: &StageStrains<S>,
         state: &Configuration<S>,
     ) -> Vec<Linearisation<S>> {
-        (0..self.elements)
+        (0..self.elements())
             .map(|i| {
                 let load = state.loads.as_ref().map(|loads| loads[i].map(|l| (l.wrench, l.tangent)));
                 let element = ElementState {
-                    h: self.h(),
+                    h: self.h(i),
                     xi: self.twists(i, &strains[i]),
                     kinematics: state.kinematics[i],
                     tangent: state.response[i].map(|r| r.tangent),
@@ -175,14 +117,14 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
 
     /// Strain energy Σ h b U and the potential of the loads, `None` where one has none.
     pub(crate) fn energies(&self, state: &Configuration<S>) -> (f64, Option<f64>) {
-        let h = self.h();
-        let weights = self.table.b.map(|b| h * b);
+        let weights = |i: usize| self.table.b.map(|b| self.h(i) * b);
         let mut elastic = 0.0;
-        for stage in &state.response {
-            elastic += (0..S).map(|k| weights[k] * stage[k].energy).sum::<f64>();
+        for (i, stage) in state.response.iter().enumerate() {
+            elastic += weights(i).iter().zip(stage).map(|(w, r)| w * r.energy).sum::<f64>();
         }
         let mut potential = state.tip_load.potential;
-        for stage in state.loads.iter().flatten() {
+        for (i, stage) in state.loads.iter().flatten().enumerate() {
+            let weights = weights(i);
             for k in 0..S {
                 potential = potential.zip(stage[k].potential).map(|(sum, p)| sum + weights[k] * p);
             }

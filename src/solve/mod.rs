@@ -3,9 +3,13 @@
 //! What lives here drives the elements of [`rod`](crate::rod): when to step, how far, when to stop, and what to tell the user. It
 //! prints nothing; give a solve an observer to watch it.
 
+mod cascade;
 mod chain;
+mod describe;
 mod equilibrium;
+mod estimate;
 mod failure;
+mod mesh;
 mod newton;
 mod report;
 mod solution;

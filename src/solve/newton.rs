@@ -3,8 +3,9 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::chain::{self, EndRows};
-use super::equilibrium::{Condensed, Configuration, Mesh, Scale, StageStrains};
+use super::equilibrium::{Condensed, Configuration, Scale};
 use super::failure::Reason;
+use super::mesh::{Mesh, StageStrains};
 use super::report::Iteration;
 use crate::body::Elastic;
 use crate::error::{Error, Result};
@@ -85,7 +86,7 @@ impl Newton<'_> {
             out.strains = moved(&out.strains, &step, fraction);
             state = next;
             let record = Iteration {
-                elements: mesh.elements,
+                elements: mesh.elements(),
                 residual: out.residual,
                 step: fraction * step.size,
                 fraction,

@@ -3,10 +3,11 @@
 use num_dual::Dual64;
 
 use super::*;
-use crate::body::{Density, HasMass};
+use crate::body::{Density, HasMass, LineMass};
 use crate::lie::Twist;
 use crate::load::{DeadWrench, Gravity};
 use crate::material::NeoHookean;
+use crate::rod::Rod;
 use crate::scalar::Scalar;
 use crate::section::{Circle, Linear, Section};
 use crate::{Body, Pose};
@@ -63,27 +64,31 @@ fn dual_residual<const S: usize>(
     direction: &StageStrains<S>,
     heavy: bool,
 ) -> Vec<[Wrench<Dual64>; S]> {
-    let (h, body) = (mesh.h(), mesh.rod.body());
+    let (h, body) = (mesh.h(0), mesh.rod.body());
     let along = |v: [f64; 6], d: [f64; 6]| std::array::from_fn(|i| Dual64::new(v[i], d[i]));
     let mut pose: Pose<Dual64> = mesh.rod.base().cast();
     let (mut motions, mut loads) = (Vec::new(), Vec::new());
-    for i in 0..mesh.elements {
+    for i in 0..mesh.elements() {
         let xi = mesh.twists(i, &at[i]);
         let xi: [Twist<Dual64>; S] =
             std::array::from_fn(|k| Twist::from_array(along(xi[k].to_array(), direction[i][k].to_array())));
         let motion = Kinematics::new(&mesh.table, &xi, h);
         let stage: [Wrench<Dual64>; S] = std::array::from_fn(|k| {
-            let mass = if heavy { body.mass_per_length(mesh.stage_s(i, k)).unwrap() } else { 0.0 };
-            let pose = pose * motion.stage[k];
-            Wrench::new(Vector3::zeros().map(Dual64::from_re), in_body(&pose, &(weight() * mass)))
+            if !heavy {
+                return Wrench::zero();
+            }
+            let LineMass { mass, first: [x, y] } = body.line_mass(mesh.stage_s(i, k)).unwrap();
+            let acceleration = in_body(&(pose * motion.stage[k]), &weight());
+            let arm = vector![x, y, 0.0].map(Dual64::from_re);
+            Wrench::new(arm.cross(&acceleration), acceleration * Dual64::from_re(mass))
         });
-        loads.push(motion.to_node(&stage));
+        loads.push(motion.at_node(&stage));
         pose = pose * motion.end;
         motions.push(motion);
     }
     let mut wrench = Wrench::new(in_body(&pose, &tip_moment()), in_body(&pose, &tip_force()));
-    let mut residual = vec![[Wrench::zero(); S]; mesh.elements];
-    for i in (0..mesh.elements).rev() {
+    let mut residual = vec![[Wrench::zero(); S]; mesh.elements()];
+    for i in (0..mesh.elements()).rev() {
         wrench = motions[i].wrench_at_start(&mesh.table, &wrench, &loads[i], h);
         let stage = motions[i].stage_wrenches(&mesh.table, &wrench, &loads[i], h);
         for k in 0..S {
@@ -112,8 +117,8 @@ fn block_derivative<const S: usize>(
         let next = element.end_adjoint * zeta[zeta.len() - 1] + sum(&element.end_strain, d);
         zeta.push(next);
     }
-    let mut d_wrench = state.tip_load.tangent * zeta[mesh.elements];
-    let mut derivative = vec![[Wrench::zero(); S]; mesh.elements];
+    let mut d_wrench = state.tip_load.tangent * zeta[mesh.elements()];
+    let mut derivative = vec![[Wrench::zero(); S]; mesh.elements()];
     for (i, element) in elements.iter().enumerate().rev() {
         let known = element.wrench_from_zeta * zeta[i] + sum(&element.wrench_from_strain, &direction[i]);
         d_wrench = element.wrench_from_wrench.lu().solve(&(d_wrench - known)).unwrap();
@@ -143,7 +148,7 @@ fn difference<const S: usize>(a: &[[Wrench; S]], b: &[[Wrench; S]]) -> f64 {
 
 fn tangent_holds<const S: usize>(heavy: bool) {
     let rod = rod(heavy);
-    let mesh = Mesh::<_, S>::new(&rod, ELEMENTS);
+    let mesh = Mesh::<_, S>::uniform(&rod, ELEMENTS);
     for seed in 0..4 {
         let (at, direction) = (strains::<S>(2 * seed), strains::<S>(2 * seed + 1));
         let dual = dual_residual(&mesh, &at, &direction, heavy);
