@@ -1,5 +1,6 @@
 //! Reads the reference solutions in `tests/data` and builds the rods they describe.
 #![allow(dead_code)] // each test binary uses its own part
+#![allow(clippy::unwrap_used)] // a test that cannot go on should panic
 
 use hyperrod::lie::so3;
 use hyperrod::load::{DeadWrench, Gravity};
