@@ -152,8 +152,10 @@ impl State {
         let station = body.station(s);
         let response = body.section().respond(&station, &self.strain, Request::Rate).unwrap();
         let xi = station.reference.twist + self.strain;
-        let weight = WEIGHT * body.mass_per_length(s).unwrap();
-        let load = Wrench::new(Vector3::zeros(), self.rotation.tr_mul(&weight));
+        let line = body.line_mass(s).unwrap();
+        let acceleration = self.rotation.tr_mul(&WEIGHT);
+        let centre = vector![line.first[0], line.first[1], 0.0];
+        let load = Wrench::new(centre.cross(&acceleration), acceleration * line.mass);
         let psi = response.wrench;
         // m′ = −ω×m − ν×n, n′ = −ω×n − f
         let moment = -xi.angular.cross(&psi.moment) - xi.linear.cross(&psi.force);

@@ -18,7 +18,7 @@ pub(super) fn failed<B: Elastic, const S: usize>(
 ) -> Box<Failure> {
     let last = outcome.state.as_ref().map(|state| describe(mesh, &outcome.strains, state, report.clone()));
     let reason = outcome.failure.unwrap_or(Reason::IterationLimit {
-        limit: outcome.iterations.len(),
+        limit: outcome.iterations,
         step: f64::NAN,
         tolerance: f64::NAN,
     });
@@ -56,23 +56,37 @@ pub(super) fn describe<B: Elastic, const S: usize>(
     StaticSolution { nodes, stages, strain_energy, load_potential, report }
 }
 
-/// Solves Ψ(Δξ) = Λ at a node by Newton's method. Where that fails (a law without a unique inverse), the strain interpolated from
+/// The strain of Ψ(Δξ) = Λ at a node by Newton's method. Where that fails (a law without a unique inverse), the strain interpolated from
 /// the stages stands.
-pub(super) fn strain_of_wrench<B: Elastic>(body: &B, s: f64, wrench: &Wrench, guess: Strain) -> Strain {
+fn strain_of_wrench<B: Elastic>(body: &B, s: f64, wrench: &Wrench, guess: Strain) -> Strain {
     let mut strain = guess;
     let mut previous = f64::INFINITY;
     for _ in 0..20 {
-        let Ok(response) = body.respond(s, &strain, Request::Tangent) else { return guess };
-        let residual = (*wrench - response.wrench).to_vector();
-        let Some(step) = response.tangent.lu().solve(&residual) else { return guess };
+        let Some(step) = strain_correction(body, s, wrench, &strain) else { return guess };
         // a step relative to the strains of the rod: curvatures in units of 1/L
-        let step = Strain::from_vector(&step);
         let size = step.linear.norm() + step.angular.norm() * body.length();
         strain += step;
-        if size < 1e-14 || (size < 1e-9 && size > 0.5 * previous) {
+        // its square is below rounding, or it no longer falls
+        if size < 1e-9 || (size < 1e-7 && size > 0.5 * previous) {
             return strain;
         }
         previous = size;
     }
     guess
+}
+
+/// (∂Ψ/∂Δξ)⁻¹ (Λ − Ψ(Δξ)); `None` for an inadmissible strain or a singular tangent.
+pub(super) fn strain_correction<B: Elastic>(
+    body: &B,
+    s: f64,
+    wrench: &Wrench,
+    strain: &Strain,
+) -> Option<Strain> {
+    let response = body.respond(s, strain, Request::Tangent).ok()?;
+    let residual = (*wrench - response.wrench).to_vector();
+    let step = match response.tangent.cholesky() {
+        Some(factor) => factor.solve(&residual),
+        None => response.tangent.lu().solve(&residual)?,
+    };
+    Some(Strain::from_vector(&step))
 }

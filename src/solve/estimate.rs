@@ -1,6 +1,6 @@
 //! How wrong a mesh is: the defect of its strain polynomials, and the difference of two meshes.
 
-use super::describe::strain_of_wrench;
+use super::describe::strain_correction;
 use super::equilibrium::Configuration;
 use super::mesh::{Mesh, StageStrains};
 use super::newton::Outcome;
@@ -29,9 +29,10 @@ impl Defect {
         let share = |i: usize| {
             let ends = [(i, 0.0), (i + 1, 1.0)].map(|(node, tau)| {
                 let guess = mesh.interpolate(&strains[i], tau);
-                let exact = strain_of_wrench(body, mesh.node_s(node), &state.node_wrench[node], guess);
-                let change = exact - guess;
-                change.linear.norm().max(change.angular.norm() * length)
+                match strain_correction(body, mesh.node_s(node), &state.node_wrench[node], &guess) {
+                    Some(change) => change.linear.norm().max(change.angular.norm() * length),
+                    None => 1.0,
+                }
             });
             let delta = ends[0].max(ends[1]);
             mesh.h(i) / length * delta * delta
@@ -89,7 +90,7 @@ pub(super) fn first_elements<B: Elastic, const S: usize>(
     let wanted =
         (0.3 * length * (force / bending).sqrt()).max(0.25 * moment * length / bending).max(0.5 * turn);
     // what is not finite is the rod's own trouble, found by the solve
-    if wanted.is_finite() { (wanted.ceil() as usize).clamp(2, 32) } else { 2 }
+    if wanted.is_finite() { (wanted.ceil() as usize).clamp(1, 32) } else { 2 }
 }
 
 /// What a mesh that was solved leaves behind for the next one.

@@ -9,13 +9,17 @@ mod describe;
 mod equilibrium;
 mod estimate;
 mod failure;
+mod linear;
 mod mesh;
 mod newton;
 mod report;
 mod solution;
 mod statics;
+mod sweep;
+mod workspace;
 
 pub use failure::{Failure, Reason};
 pub use report::{ErrorEstimate, Iteration, Report};
 pub use solution::{Node, StaticSolution};
 pub use statics::{Order, Statics};
+pub use workspace::Workspace;

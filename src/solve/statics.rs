@@ -2,9 +2,11 @@ use std::time::Instant;
 
 use super::cascade::Cascade;
 use super::failure::{Failure, Reason};
-use super::newton::Newton;
+use super::linear::Buffers;
+use super::newton::{Newton, Stop};
 use super::report::{Iteration, Report};
 use super::solution::StaticSolution;
+use super::workspace::Workspace;
 use crate::body::Elastic;
 use crate::error::Error;
 use crate::rod::Rod;
@@ -95,14 +97,35 @@ impl Statics {
         rod: &Rod<B>,
         mut observer: impl FnMut(&Iteration),
     ) -> Result<StaticSolution, Box<Failure>> {
+        self.run(&mut Workspace::default(), rod, &mut observer)
+    }
+
+    /// As [`solve`](Self::solve), in memory that is kept from one solve to the next.
+    ///
+    /// # Errors
+    /// As [`solve`](Self::solve).
+    pub fn solve_in<B: Elastic>(
+        &self,
+        workspace: &mut Workspace,
+        rod: &Rod<B>,
+    ) -> Result<StaticSolution, Box<Failure>> {
+        self.run(workspace, rod, &mut |_| ())
+    }
+
+    fn run<B: Elastic>(
+        &self,
+        workspace: &mut Workspace,
+        rod: &Rod<B>,
+        observer: &mut dyn FnMut(&Iteration),
+    ) -> Result<StaticSolution, Box<Failure>> {
         if let Err(error) = self.check() {
             let reason = Reason::Options(error);
             return Err(Box::new(Failure { reason, report: Report::default(), last: None }));
         }
         match self.order {
-            Order::Two => self.solve_on::<B, 1>(rod, &mut observer),
-            Order::Four => self.solve_on::<B, 2>(rod, &mut observer),
-            Order::Six => self.solve_on::<B, 3>(rod, &mut observer),
+            Order::Two => self.solve_on(workspace.one(), rod, observer),
+            Order::Four => self.solve_on(workspace.two(), rod, observer),
+            Order::Six => self.solve_on(workspace.three(), rod, observer),
         }
     }
 
@@ -125,12 +148,14 @@ impl Statics {
 
     fn solve_on<B: Elastic, const S: usize>(
         &self,
+        buffers: &mut Buffers<S>,
         rod: &Rod<B>,
         observer: &mut dyn FnMut(&Iteration),
     ) -> Result<StaticSolution, Box<Failure>> {
         let start = Instant::now();
-        let newton = Newton { max_iterations: self.max_iterations, tolerance: self.tolerance, observer };
-        let mut cascade = Cascade::<B, S>::new(rod, newton);
+        let stop = Stop::Step(self.tolerance);
+        let newton = Newton { max_iterations: self.max_iterations, stop, observer };
+        let mut cascade = Cascade::<B, S>::new(rod, newton, buffers);
         let solved = match self.accuracy {
             None => cascade.on_mesh(self.elements.div_ceil(2)),
             Some(accuracy) => cascade.to(accuracy),

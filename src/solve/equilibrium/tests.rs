@@ -4,12 +4,16 @@ use num_dual::Dual64;
 
 use super::*;
 use crate::body::{Density, HasMass, LineMass};
+use crate::lie::Strain;
 use crate::lie::Twist;
 use crate::load::{DeadWrench, Gravity};
 use crate::material::NeoHookean;
 use crate::rod::Rod;
+use crate::rod::condense::Condensed;
+use crate::rod::element::Linearisation;
 use crate::scalar::Scalar;
 use crate::section::{Circle, Linear, Section};
+use crate::solve::linear::Buffers;
 use crate::{Body, Pose};
 use nalgebra::{Vector3, vector};
 
@@ -101,14 +105,21 @@ fn dual_residual<const S: usize>(
     residual
 }
 
+fn configured<const S: usize>(mesh: &Mesh<'_, Tapered, S>, at: &StageStrains<S>) -> Configuration<S> {
+    let mut state = Configuration::default();
+    mesh.configure(at, &mut state).unwrap();
+    state
+}
+
 /// The same derivative from the blocks of the linearisation: ζ forward from the clamp, δΛ backward from the tip.
 fn block_derivative<const S: usize>(
     mesh: &Mesh<'_, Tapered, S>,
     at: &StageStrains<S>,
     direction: &StageStrains<S>,
 ) -> Vec<[Wrench; S]> {
-    let state = mesh.configure(at).unwrap();
-    let elements = mesh.linearise(at, &state);
+    let state = configured(mesh, at);
+    let elements: Vec<_> =
+        (0..mesh.elements()).map(|i| Linearisation::new(&mesh.table, &mesh.element(i, at, &state))).collect();
     let sum = |blocks: &[Matrix6<f64>; S], strains: &[Strain; S]| {
         blocks.iter().zip(strains).fold(SVector::<f64, 6>::zeros(), |v, (b, d)| v + b * d.to_vector())
     };
@@ -152,7 +163,7 @@ fn tangent_holds<const S: usize>(heavy: bool) {
     for seed in 0..4 {
         let (at, direction) = (strains::<S>(2 * seed), strains::<S>(2 * seed + 1));
         let dual = dual_residual(&mesh, &at, &direction, heavy);
-        let state = mesh.configure(&at).unwrap();
+        let state = configured(&mesh, &at);
 
         // the dual residual is the residual of the solver: the same sums in another order
         let value: Vec<_> =
@@ -175,7 +186,7 @@ fn tangent_holds<const S: usize>(heavy: bool) {
                 .zip(&direction)
                 .map(|(a, d)| std::array::from_fn(|k| a[k] + d[k] * (sign * step)))
                 .collect();
-            let state = mesh.configure(&moved).unwrap();
+            let state = configured(&mesh, &moved);
             (0..ELEMENTS).map(|i| state.residual(i)).collect()
         };
         let (plus, minus) = (shifted(1.0), shifted(-1.0));
@@ -205,4 +216,63 @@ fn the_tangent_is_the_derivative_of_the_residual_at_order_four() {
 fn the_tangent_is_the_derivative_of_the_residual_at_order_six() {
     tangent_holds::<3>(false);
     tangent_holds::<3>(true);
+}
+
+/// Elimination of shear and extension first, against elimination of all strains at once.
+fn short_cut_holds<const S: usize>(heavy: bool) {
+    let rod = rod(heavy);
+    let mesh = Mesh::<_, S>::uniform(&rod, ELEMENTS);
+    let at = strains::<S>(3);
+    let state = configured(&mesh, &at);
+    for i in 0..ELEMENTS {
+        let element = mesh.element(i, &at, &state);
+        let (mut short, mut general) = (Condensed::<S>::empty(), Condensed::<S>::empty());
+        short.fill(&mesh.table, &element).unwrap();
+        general.fill_general(&mesh.table, &element).unwrap();
+        let scale = Scale { length: 0.3, force: 1.0 };
+        let (a, b) = (scale.transfer(&short.transfer), scale.transfer(&general.transfer));
+        // eighteen equations of condition 1e3 or so, in units of the rod; measured 1e-15
+        let error = (a.matrix - b.matrix).norm() / b.matrix.norm() + (a.rhs - b.rhs).norm() / b.rhs.norm();
+        assert!(error < 1e-13, "S = {S}, heavy {heavy}: {error:.1e}");
+        let (zeta, wrench) = (SVector::from([0.1, -0.2, 0.3, 0.01, 0.02, -0.03]), SVector::from([1.0; 6]));
+        for (a, b) in short.strain_step(&zeta, &wrench).into_iter().zip(general.strain_step(&zeta, &wrench)) {
+            let error = (a - b).to_vector().norm() / b.to_vector().norm();
+            assert!(error < 1e-13, "S = {S}, heavy {heavy}, strains: {error:.1e}");
+        }
+    }
+}
+
+#[test]
+fn eliminating_shear_and_extension_first_changes_nothing() {
+    for heavy in [false, true] {
+        short_cut_holds::<1>(heavy);
+        short_cut_holds::<2>(heavy);
+        short_cut_holds::<3>(heavy);
+    }
+}
+
+/// The Newton step solves the linearised equations, chain and all: the derivative of the residual along it is minus the residual.
+fn step_solves<const S: usize>(heavy: bool) {
+    let rod = rod(heavy);
+    let mesh = Mesh::<_, S>::uniform(&rod, ELEMENTS);
+    let at = strains::<S>(5);
+    let state = configured(&mesh, &at);
+    let mut buffers = Buffers::<S>::default();
+    buffers.newton_step(&mesh, &at, &state, &Scale { length: 0.3, force: 1.0 }).unwrap();
+    let zero = vec![[Strain::zero(); S]; ELEMENTS];
+    buffers.move_by(&zero, 1.0);
+    let along = block_derivative(&mesh, &at, &buffers.trial);
+    let target: Vec<_> = (0..ELEMENTS).map(|i| state.residual(i).map(|r| -r)).collect();
+    let error = difference(&along, &target);
+    // rounding times the condition of the tangent; measured 2e-14
+    assert!(error < 1e-11, "S = {S}, heavy {heavy}: {error:.1e}");
+}
+
+#[test]
+fn the_newton_step_solves_the_linearised_equations() {
+    for heavy in [false, true] {
+        step_solves::<1>(heavy);
+        step_solves::<2>(heavy);
+        step_solves::<3>(heavy);
+    }
 }
