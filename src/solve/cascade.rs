@@ -205,7 +205,7 @@ fn cuts(shares: &[f64], factor: f64, order: usize, most: f64) -> Vec<usize> {
     let total: f64 = shares.iter().sum();
     let density: Vec<f64> = shares.iter().map(|c| c.powf(1.0 / (p + 1.0))).collect();
     let spread: f64 = density.iter().sum();
-    // half of what is needed, so that the estimate of the next mesh is met with room
-    let scale = (spread.max(f64::MIN_POSITIVE) / (0.5 * factor * total).max(f64::MIN_POSITIVE)).powf(1.0 / p);
+    // a fifth of what is needed, so that the estimate of the next mesh is met with room
+    let scale = (spread.max(f64::MIN_POSITIVE) / (0.2 * factor * total).max(f64::MIN_POSITIVE)).powf(1.0 / p);
     density.iter().map(|d| (scale * d).ceil().clamp(2.0, most) as usize).collect()
 }
