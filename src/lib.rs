@@ -146,7 +146,7 @@
 //! | [`body`] | length, section, reference strain, and mass where a scene asks for it |
 //! | [`load`] | gravity and tip wrenches, with exact derivatives |
 //! | [`rod`] | the scene, and the collocation element in the strains |
-//! | [`solve`] | Newton's method, the static solver and its reports |
+//! | [`solve`] | Newton's method, the static solver with an accuracy or on a mesh, and its reports |
 //!
 //! # Ladder of models
 //!
@@ -169,7 +169,6 @@
 //! * Sections that contract, warp or ovalise. A rigid section is too stiff for rubber unless the constants are chosen for it (correction 3).
 //! * Ends other than clamped and free; follower loads, tendons, pressure; rods joined to rods.
 //! * A stability check: the solver finds an equilibrium, and does not say whether it is a stable one. It applies the load in one step.
-//! * Meshes that adapt: elements are of equal length, and the error estimate is reported, not acted on.
 //! * An error estimate of the section's quadrature for laws that are not polynomials.
 
 #[doc(hidden)]

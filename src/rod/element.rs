@@ -1,10 +1,12 @@
 //! One collocation element: kinematics, balance, and their exact linearisation about node i.
 
-use nalgebra::Matrix6;
+use nalgebra::{Matrix3, Matrix6};
 
 use super::collocation::Collocation;
 use super::magnus::{exponent, exponent_derivative, taylor_data};
 use crate::lie::{Pose, Twist, TwistMap, Wrench, se3, so3::hat};
+use crate::load::LoadWrench;
+use crate::material::Response;
 use crate::scalar::Scalar;
 
 /// Poses of the stages and the end of an element relative to its first node.
@@ -15,14 +17,38 @@ pub(crate) struct Kinematics<D, const S: usize> {
 }
 
 impl<D: Scalar, const S: usize> Kinematics<D, S> {
+    #[inline(always)]
     pub(crate) fn new(table: &Collocation<S>, xi: &[Twist<D>; S], h: f64) -> Self {
         let pose = |t: &[[f64; S]; S]| se3::exp(&exponent(&taylor_data(t, xi, h)));
-        Self { stage: std::array::from_fn(|k| pose(&table.stage[k])), end: pose(&table.end) }
+        let mut motion = Self { stage: [Pose::identity(); S], end: pose(&table.end) };
+        for k in 0..S {
+            motion.stage[k] = pose(&table.stage[k]);
+        }
+        motion
     }
 
     /// The loads of the stages brought to the first node: F_l = Ad_l⁻ᵀ f̄_l.
     pub(crate) fn at_node(&self, stage_loads: &[Wrench<D>; S]) -> [Wrench<D>; S] {
         std::array::from_fn(|l| self.stage[l].adjoint_inverse().apply_transpose(&stage_loads[l]))
+    }
+
+    /// Λ_i and Λ_k of an element without distributed load.
+    pub(crate) fn wrenches_without_load(&self, wrench_at_end: &Wrench<D>) -> (Wrench<D>, [Wrench<D>; S]) {
+        let at_start = carried(&self.end.inverse(), wrench_at_end);
+        (at_start, self.stage.map(|pose| carried(&pose, &at_start)))
+    }
+
+    /// Λ_i and Λ_k from the wrench at the end and the loads of the stages.
+    pub(crate) fn wrenches(
+        &self,
+        table: &Collocation<S>,
+        wrench_at_end: &Wrench<D>,
+        stage_loads: &[Wrench<D>; S],
+        h: f64,
+    ) -> (Wrench<D>, [Wrench<D>; S]) {
+        let node_loads = self.at_node(stage_loads);
+        let at_start = self.wrench_at_start(table, wrench_at_end, &node_loads, h);
+        (at_start, self.stage_wrenches(table, &at_start, &node_loads, h))
     }
 
     /// Λ_i = Ad_e⁻ᵀ Λ_{i+1} + h Σ b_l F_l.
@@ -58,6 +84,13 @@ impl<D: Scalar, const S: usize> Kinematics<D, S> {
     }
 }
 
+/// Ad_gᵀ Λ = (Rᵀ(m − p × n), Rᵀ n).
+#[inline]
+fn carried<D: Scalar>(pose: &Pose<D>, wrench: &Wrench<D>) -> Wrench<D> {
+    let moment = wrench.moment - pose.position.cross(&wrench.force);
+    Wrench::new(pose.rotation.tr_mul(&moment), pose.rotation.tr_mul(&wrench.force))
+}
+
 /// Body displacements of stages and end per change of the stage strains: B_kl = dexp₋Ω_k ∂Ω_k/∂ξ_l.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Variations<const S: usize> {
@@ -66,20 +99,36 @@ pub(crate) struct Variations<const S: usize> {
 }
 
 impl<const S: usize> Variations<S> {
+    #[inline(always)]
     pub(crate) fn new(table: &Collocation<S>, xi: &[Twist; S], h: f64) -> Self {
-        let row = |t: &[[f64; S]; S]| -> [TwistMap; S] {
-            let alpha = taylor_data(t, xi, h);
-            let d_omega = exponent_derivative(&alpha);
-            let dexp = se3::dexp(&(-exponent(&alpha)));
-            std::array::from_fn(|l| {
-                let mut sum = d_omega[0].scale(h * t[0][l]);
-                for j in 1..S {
-                    sum = sum + d_omega[j].scale(h * t[j][l]);
-                }
-                dexp * sum
-            })
-        };
-        Self { stage: std::array::from_fn(|k| row(&table.stage[k])), end: row(&table.end) }
+        let zero = TwistMap { diagonal: Matrix3::zeros(), lower: Matrix3::zeros() };
+        let mut all = Self { stage: [[zero; S]; S], end: [zero; S] };
+        for k in 0..S {
+            fill_row(&table.stage[k], xi, h, &mut all.stage[k]);
+        }
+        fill_row(&table.end, xi, h, &mut all.end);
+        all
+    }
+}
+
+/// dexp₋Ω ∂Ω/∂ξ_l = h Σ_j t_jl dexp₋Ω ∂Ω/∂α_j.
+#[inline(always)]
+fn fill_row<const S: usize>(t: &[[f64; S]; S], xi: &[Twist; S], h: f64, row: &mut [TwistMap; S]) {
+    let alpha = taylor_data(t, xi, h);
+    let d_omega = exponent_derivative(&alpha);
+    let dexp = se3::dexp(&(-exponent(&alpha)));
+    let mut moved = d_omega;
+    for j in 0..S {
+        moved[j] = dexp * d_omega[j];
+    }
+    for l in 0..S {
+        let mut sum = moved[0].scale(h * t[0][l]);
+        for j in 1..S {
+            let weight = h * t[j][l];
+            sum.diagonal += moved[j].diagonal * weight;
+            sum.lower += moved[j].lower * weight;
+        }
+        row[l] = sum;
     }
 }
 
@@ -95,23 +144,29 @@ pub(crate) fn frame_change(wrench: &Wrench) -> Matrix6<f64> {
 
 /// What the linearisation of an element needs: the state about which it is taken.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ElementState<const S: usize> {
+pub(crate) struct ElementState<'a, const S: usize> {
     pub(crate) h: f64,
     /// ξ at the stages.
     pub(crate) xi: [Twist; S],
-    pub(crate) kinematics: Kinematics<f64, S>,
-    /// ∂Ψ/∂Δξ at the stages.
-    pub(crate) tangent: [Matrix6<f64>; S],
+    pub(crate) kinematics: &'a Kinematics<f64, S>,
+    /// Ψ and ∂Ψ/∂Δξ at the stages.
+    pub(crate) response: &'a [Response; S],
     /// Λ_k at the stages.
-    pub(crate) stage_wrench: [Wrench; S],
-    /// r_k = Ψ(Δξ_k) − Λ_k.
-    pub(crate) residual: [Wrench; S],
-    pub(crate) wrench_at_end: Wrench,
+    pub(crate) stage_wrench: &'a [Wrench; S],
+    pub(crate) wrench_at_end: &'a Wrench,
     /// Distributed load and its tangent at the stages; `None` without loads.
-    pub(crate) load: Option<[(Wrench, Matrix6<f64>); S]>,
+    pub(crate) load: Option<&'a [LoadWrench; S]>,
 }
 
-/// The linearised element about node i, with the stage strains still in it:
+impl<const S: usize> ElementState<'_, S> {
+    /// r_k = Ψ(Δξ_k) − Λ_k.
+    pub(crate) fn residual(&self, k: usize) -> Wrench {
+        self.response[k].wrench - self.stage_wrench[k]
+    }
+}
+
+/// The linearised element about node i, with the stage strains still in it, for any load and any law; see [`Condensed`](super::condense::Condensed)
+/// for the short cut that most take:
 ///
 /// A δξ = −r + P_ζ ζ_i + P_Λ δΛ_i, and ζ_{i+1}, δΛ_{i+1} from ζ_i, δΛ_i and δξ.
 #[derive(Clone, Debug)]
@@ -139,31 +194,31 @@ impl<const S: usize> Linearisation<S> {
     /// δΛ_k = L(Λ_k) y_k + Ad_kᵀ(δΛ_i − h Σ a_kl δF_l), δF_l = Ad_l⁻ᵀ(D_l z_l − L(f̄_l) y_l),
     /// K_k δξ_k − δΛ_k = −r_k,
     /// ζ_{i+1} = Ad_e⁻¹ ζ_i + y_e, δΛ_{i+1} = L(Λ_{i+1}) y_e + Ad_eᵀ(δΛ_i − h Σ b_l δF_l).
-    pub(crate) fn new(table: &Collocation<S>, state: &ElementState<S>) -> Self {
+    pub(crate) fn new(table: &Collocation<S>, state: &ElementState<'_, S>) -> Self {
         let variations = Variations::new(table, &state.xi, state.h);
         let b = variations.stage.map(|row| row.map(|map| map.to_matrix()));
         let end_strain = variations.end.map(|map| map.to_matrix());
         let transpose = state.kinematics.stage.map(|g| g.adjoint().to_matrix().transpose());
         let end_transpose = state.kinematics.end.adjoint().to_matrix().transpose();
-        let end_change = frame_change(&state.wrench_at_end);
+        let end_change = frame_change(state.wrench_at_end);
 
         let mut stage: [[Matrix6<f64>; S]; S] = std::array::from_fn(|k| {
             let change = frame_change(&state.stage_wrench[k]);
             std::array::from_fn(|m| {
                 let block = -(change * b[k][m]);
-                if k == m { block + state.tangent[k] } else { block }
+                if k == m { block + state.response[k].tangent } else { block }
             })
         });
         let mut from_zeta = [Matrix6::zeros(); S];
         let mut wrench_from_zeta = Matrix6::zeros();
         let mut wrench_from_strain = end_strain.map(|block| end_change * block);
 
-        if let Some(loads) = &state.load {
-            for (l, (load, tangent)) in loads.iter().enumerate() {
+        if let Some(loads) = state.load {
+            for (l, load) in loads.iter().enumerate() {
                 let inverse = state.kinematics.stage[l].adjoint_inverse().to_matrix();
                 // δF_l = G_l y_l + E_l ζ_i
-                let g = inverse.transpose() * (tangent - frame_change(load));
-                let e = inverse.transpose() * tangent * inverse;
+                let g = inverse.transpose() * (load.tangent - frame_change(&load.wrench));
+                let e = inverse.transpose() * load.tangent * inverse;
                 let g_b = b[l].map(|block| g * block);
                 for k in 0..S {
                     let factor = transpose[k] * (state.h * table.a[k][l]);
@@ -183,7 +238,7 @@ impl<const S: usize> Linearisation<S> {
             stage,
             from_zeta,
             from_wrench: transpose,
-            residual: state.residual,
+            residual: std::array::from_fn(|k| state.residual(k)),
             end_adjoint: state.kinematics.end.adjoint_inverse().to_matrix(),
             end_strain,
             wrench_from_zeta,

@@ -9,23 +9,25 @@
 //!
 //! Source: Blanes, Casas, Oteo and Ros (2009), Phys. Rep. 470, 151, Eqs. (240)–(253).
 
+use nalgebra::{Matrix3, Vector3};
+
 use crate::lie::{Twist, TwistMap};
 use crate::scalar::Scalar;
 
 /// α_{j+1} = h Σ_l t_jl ξ_l.
-#[inline]
+#[inline(always)]
 pub(crate) fn taylor_data<D: Scalar, const S: usize>(
     t: &[[f64; S]; S],
     xi: &[Twist<D>; S],
     h: f64,
 ) -> [Twist<D>; S] {
-    std::array::from_fn(|j| {
-        let mut alpha = Twist::zero();
+    let mut alpha = [Twist::zero(); S];
+    for j in 0..S {
         for l in 0..S {
-            alpha += xi[l] * D::from(h * t[j][l]);
+            alpha[j] += xi[l] * D::from(h * t[j][l]);
         }
-        alpha
-    })
+    }
+    alpha
 }
 
 /// Ω.
@@ -51,7 +53,12 @@ fn factors<D: Scalar>(alpha: &[Twist<D>]) -> (Twist<D>, Twist<D>) {
 }
 
 /// ∂Ω/∂α_j.
-#[inline]
+///
+/// At order 6, with P and Q as in Ω, their derivatives multiplied out and every product of two ad's taken by cross products:
+///
+/// 240 ∂Ω/∂α₁ = 240 − 20 ad_P + ad_P ad₂ − (ad_Q ad₁ ad₂ − ad_Q ad_{2α₃+C₁})/60,
+/// 240 ∂Ω/∂α₂ = −ad_Q − ad_P ad₁ + ad_Q ad₁ ad₁/60, 240 ∂Ω/∂α₃ = 20 − ad_P − ad_Q ad₁/30.
+#[inline(always)]
 pub(crate) fn exponent_derivative<const S: usize>(alpha: &[Twist; S]) -> [TwistMap; S] {
     let one = TwistMap::identity();
     match S {
@@ -61,21 +68,52 @@ pub(crate) fn exponent_derivative<const S: usize>(alpha: &[Twist; S]) -> [TwistM
             std::array::from_fn(|j| maps[j])
         }
         _ => {
+            const SCALE: f64 = 1.0 / 240.0;
             let (p, q) = factors(alpha);
-            let (ad1, ad2) = (alpha[0].ad(), alpha[1].ad());
-            let c1 = alpha[1].bracket(&alpha[0]);
-            let inner = (alpha[2] * 2.0 + c1).ad();
-            // derivatives of C₁, P = α₂ + C₂ and Q in α₁, α₂, α₃
-            let (c1_1, c1_2) = (ad2, ad1.scale(-1.0));
-            let d_p = [
-                (ad1 * c1_1 - inner).scale(1.0 / 60.0),
-                one + (ad1 * c1_2).scale(1.0 / 60.0),
-                ad1.scale(1.0 / 30.0),
+            let (a1, a2) = (&alpha[0], &alpha[1]);
+            let inner = alpha[2] * 2.0 + a2.bracket(a1);
+            let (ad_p, q1) = (p.ad(), ad_ad(&q, a1));
+            let maps = [
+                one + (ad_ad(&p, a2) - ad_p.scale(20.0)).scale(SCALE)
+                    - (map_ad(&q1, a2) - ad_ad(&q, &inner)).scale(SCALE / 60.0),
+                map_ad(&q1, a1).scale(SCALE / 60.0) - (ad_ad(&p, a1) + q.ad()).scale(SCALE),
+                one.scale(1.0 / 12.0) - (ad_p + q1.scale(1.0 / 30.0)).scale(SCALE),
             ];
-            let d_q = [c1_1 - one.scale(20.0), c1_2, one.scale(-1.0)];
-            let linear = [one, one.scale(0.0), one.scale(1.0 / 12.0)];
-            let (ad_p, ad_q) = (p.ad(), q.ad());
-            std::array::from_fn(|j| linear[j] + (ad_p * d_q[j] - ad_q * d_p[j]).scale(1.0 / 240.0))
+            let mut all = [one; S];
+            all.copy_from_slice(&maps[..S]);
+            all
         }
+    }
+}
+
+/// ad_a ad_b.
+#[inline(always)]
+fn ad_ad(a: &Twist, b: &Twist) -> TwistMap {
+    // u^ v^ = v uᵀ − (u·v) I
+    let product = |u: &Vector3<f64>, v: &Vector3<f64>| {
+        let mut m = v * u.transpose();
+        let dot = u.dot(v);
+        for i in 0..3 {
+            m[(i, i)] -= dot;
+        }
+        m
+    };
+    TwistMap {
+        diagonal: product(&a.angular, &b.angular),
+        lower: product(&a.linear, &b.angular) + product(&a.angular, &b.linear),
+    }
+}
+
+/// X ad_b.
+#[inline(always)]
+fn map_ad(x: &TwistMap, b: &Twist) -> TwistMap {
+    // column j of M v^ is M (v × e_j)
+    let product = |m: &Matrix3<f64>, v: &Vector3<f64>| {
+        let [c0, c1, c2] = [m.column(0), m.column(1), m.column(2)];
+        Matrix3::from_columns(&[c1 * v.z - c2 * v.y, c2 * v.x - c0 * v.z, c0 * v.y - c1 * v.x])
+    };
+    TwistMap {
+        diagonal: product(&x.diagonal, &b.angular),
+        lower: product(&x.lower, &b.angular) + product(&x.diagonal, &b.linear),
     }
 }

@@ -6,8 +6,10 @@
 //! What lives here states equilibrium and its exact linearisation on one element; it does not solve anything.
 
 pub(crate) mod collocation;
+pub(crate) mod condense;
 pub(crate) mod element;
 pub(crate) mod magnus;
 mod scene;
+mod stages;
 
 pub use scene::Rod;

@@ -35,6 +35,18 @@ pub enum Reason {
         /// Where.
         error: Error,
     },
+    /// The accuracy asked for is out of reach: of the largest mesh, or of rounding.
+    #[error(
+        "accuracy {asked:.1e} is not reached: estimated {estimated:.1e} with {elements} elements; rounding alone may forbid it"
+    )]
+    Accuracy {
+        /// What was asked for.
+        asked: f64,
+        /// The estimated error of the last mesh, as [`ErrorEstimate::relative`](super::ErrorEstimate::relative) has it.
+        estimated: f64,
+        /// The elements of the last mesh.
+        elements: usize,
+    },
     /// The iteration limit was reached.
     #[error(
         "no convergence in {limit} iterations: last step {step:.3e}, asked {tolerance:.1e}; apply the load in steps, or raise the limit"

@@ -1,14 +1,12 @@
 //! Newton's method on the stage strains of one mesh.
 
-use nalgebra::{SMatrix, SVector};
-
-use super::chain::{self, EndRows};
-use super::equilibrium::{Condensed, Configuration, Mesh, Scale, StageStrains};
+use super::equilibrium::{Configuration, Scale};
 use super::failure::Reason;
+use super::linear::{Buffers, Step};
+use super::mesh::{Mesh, StageStrains};
 use super::report::Iteration;
 use crate::body::Elastic;
-use crate::error::{Error, Result};
-use crate::lie::{Strain, Twist};
+use crate::error::Error;
 
 /// The largest rotation of a node in one iteration, rad. A step that turns a node further is shortened: beyond about one radian
 /// the linearised rotation says little about the true one.
@@ -20,9 +18,49 @@ const HALVINGS: usize = 20;
 /// A step below this that no longer shrinks is rounding; it is accepted as converged.
 const ROUNDING_STEP: f64 = 1e-7;
 
+/// When Newton's method stops.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Stop {
+    /// After a full step smaller than this.
+    Step(f64),
+    /// When the error left is below this: C step², with C from how the steps before fell.
+    Error(f64),
+}
+
+/// The constant C of s′ ≈ C s² is at least this: two steps tell it to a factor of a few.
+const LEAST_CONSTANT: f64 = 0.3;
+
+/// Where no two steps have told it yet, on the safe side of what is found (0.02 to 0.3 in the reference cases).
+const FIRST_CONSTANT: f64 = 1.0;
+
+impl Stop {
+    fn reached(&self, step: f64, previous: f64) -> bool {
+        match *self {
+            Self::Step(tolerance) => step <= tolerance,
+            Self::Error(tolerance) => {
+                let falling = previous.is_finite() && step < 0.5 * previous;
+                let constant = if falling {
+                    (2.0 * step / (previous * previous)).max(LEAST_CONSTANT)
+                } else {
+                    FIRST_CONSTANT
+                };
+                constant * step * step <= tolerance && step < 0.1
+            }
+        }
+    }
+
+    /// The step that is surely small enough.
+    fn step(&self) -> f64 {
+        match *self {
+            Self::Step(tolerance) => tolerance,
+            Self::Error(tolerance) => (tolerance / FIRST_CONSTANT).sqrt(),
+        }
+    }
+}
+
 pub(crate) struct Newton<'o> {
     pub(crate) max_iterations: usize,
-    pub(crate) tolerance: f64,
+    pub(crate) stop: Stop,
     pub(crate) observer: &'o mut dyn FnMut(&Iteration),
 }
 
@@ -31,15 +69,9 @@ pub(crate) struct Outcome<const S: usize> {
     pub(crate) strains: StageStrains<S>,
     pub(crate) state: Option<Configuration<S>>,
     pub(crate) residual: f64,
-    pub(crate) iterations: Vec<Iteration>,
+    /// How many iterations were made.
+    pub(crate) iterations: usize,
     pub(crate) failure: Option<Reason>,
-}
-
-/// A Newton step: increments of the stage strains, and its size.
-struct Step<const S: usize> {
-    strains: Vec<[Strain; S]>,
-    size: f64,
-    rotation: f64,
 }
 
 impl Newton<'_> {
@@ -48,26 +80,22 @@ impl Newton<'_> {
         &mut self,
         mesh: &Mesh<'_, B, S>,
         start: StageStrains<S>,
+        buffers: &mut Buffers<S>,
+        history: &mut Vec<Iteration>,
     ) -> Outcome<S> {
-        let mut out = Outcome {
-            strains: start,
-            state: None,
-            residual: f64::INFINITY,
-            iterations: Vec::new(),
-            failure: None,
-        };
-        let mut state = match mesh.configure(&out.strains) {
-            Ok(state) => state,
-            Err(error) => {
-                out.failure = Some(Reason::Start(error));
-                return out;
-            }
-        };
+        let mut out =
+            Outcome { strains: start, state: None, residual: f64::INFINITY, iterations: 0, failure: None };
+        let mut state = buffers.configuration();
+        if let Err(error) = mesh.configure(&out.strains, &mut state) {
+            out.failure = Some(Reason::Start(error));
+            return out;
+        }
+        let mut trial = buffers.configuration();
         let mut previous = f64::INFINITY;
         for iteration in 0..self.max_iterations {
             let scale = scale(mesh, &state);
             out.residual = relative_residual(&state, &scale);
-            let step = match newton_step(mesh, &out.strains, &state, &scale) {
+            let step = match buffers.newton_step(mesh, &out.strains, &state, &scale) {
                 Ok(step) => step,
                 Err(error) => {
                     out.failure = Some(Reason::Singular { iteration, error });
@@ -75,39 +103,47 @@ impl Newton<'_> {
                 }
             };
             let cap = if step.rotation > ROTATION_CAP { ROTATION_CAP / step.rotation } else { 1.0 };
-            let (fraction, next) = match admissible(mesh, &out.strains, &step, cap) {
-                Ok(taken) => taken,
+            let fraction = match admissible(mesh, &out.strains, buffers, cap, &mut trial) {
+                Ok(fraction) => fraction,
                 Err((fraction, error)) => {
                     out.failure = Some(Reason::NoAdmissibleStep { iteration, fraction, error });
                     break;
                 }
             };
-            out.strains = moved(&out.strains, &step, fraction);
-            state = next;
-            let record = Iteration {
-                elements: mesh.elements,
-                residual: out.residual,
-                step: fraction * step.size,
-                fraction,
-            };
-            (self.observer)(&record);
-            out.iterations.push(record);
+            std::mem::swap(&mut out.strains, &mut buffers.trial);
+            std::mem::swap(&mut state, &mut trial);
+            out.iterations += 1;
+            self.record(mesh.elements(), out.residual, &step, fraction, history);
             let full = fraction == 1.0;
             let stalled = step.size < ROUNDING_STEP && step.size > 0.5 * previous;
-            if full && (step.size <= self.tolerance || stalled) {
+            if full && (self.stop.reached(step.size, previous) || stalled) {
                 out.residual = relative_residual(&state, &scale);
                 out.state = Some(state);
+                buffers.recycle(trial);
                 return out;
             }
-            previous = step.size;
+            previous = if full { step.size } else { f64::INFINITY };
         }
         if out.failure.is_none() {
-            let step = out.iterations.last().map_or(f64::NAN, |i| i.step);
-            let (limit, tolerance) = (self.max_iterations, self.tolerance);
+            let step = history.last().map_or(f64::NAN, |i| i.step);
+            let (limit, tolerance) = (self.max_iterations, self.stop.step());
             out.failure = Some(Reason::IterationLimit { limit, step, tolerance });
         }
         out.state = Some(state);
         out
+    }
+
+    fn record(
+        &mut self,
+        elements: usize,
+        residual: f64,
+        step: &Step,
+        fraction: f64,
+        history: &mut Vec<Iteration>,
+    ) {
+        let record = Iteration { elements, residual, step: fraction * step.size, fraction };
+        (self.observer)(&record);
+        history.push(record);
     }
 }
 
@@ -135,66 +171,22 @@ fn relative_residual<const S: usize>(state: &Configuration<S>, scale: &Scale) ->
     if wrench > 0.0 { residual / wrench } else { residual }
 }
 
-fn newton_step<B: Elastic, const S: usize>(
-    mesh: &Mesh<'_, B, S>,
-    strains: &StageStrains<S>,
-    state: &Configuration<S>,
-    scale: &Scale,
-) -> Result<Step<S>> {
-    let elements: Option<Vec<_>> =
-        mesh.linearise(strains, state).iter().map(|element| Condensed::new(element, scale)).collect();
-    let elements = elements
-        .ok_or(Error::Singular { matrix: "tangent of an element", s: 0.5 * mesh.rod.body().length() })?;
-    let mut left = EndRows { matrix: SMatrix::zeros(), rhs: SVector::zeros() };
-    left.matrix.fixed_view_mut::<6, 6>(0, 0).fill_with_identity();
-    let right = state.tip_rows(scale);
-    let transfers: Vec<_> = elements.iter().map(|e| e.transfer.clone()).collect();
-    let nodes = chain::solve(&left, &transfers, &right, |i| mesh.node_s(i))?;
-
-    let length = scale.length;
-    let mut step = Step { strains: Vec::with_capacity(strains.len()), size: 0.0, rotation: 0.0 };
-    for (i, y) in nodes.iter().enumerate() {
-        let (zeta, wrench): (Twist, _) = scale.unscale(y);
-        step.rotation = step.rotation.max(zeta.angular.norm());
-        step.size = step.size.max(zeta.angular.norm()).max(zeta.linear.norm() / length);
-        if let Some(element) = elements.get(i) {
-            let increment = element.strain_step(&zeta, &wrench);
-            for strain in &increment {
-                step.size = step.size.max(strain.linear.norm()).max(strain.angular.norm() * length);
-            }
-            step.strains.push(increment);
-        }
-    }
-    if !step.size.is_finite() {
-        return Err(Error::Singular { matrix: "tangent of the rod", s: length });
-    }
-    Ok(step)
-}
-
-fn moved<const S: usize>(strains: &StageStrains<S>, step: &Step<S>, fraction: f64) -> StageStrains<S> {
-    strains
-        .iter()
-        .zip(&step.strains)
-        .map(|(element, d)| std::array::from_fn(|k| element[k] + d[k] * fraction))
-        .collect()
-}
-
-/// The longest of cap, cap/2, cap/4, … that leads to an admissible state, with that state.
+/// The longest of cap, cap/2, cap/4, … that leads to an admissible state; that state is in `trial`, its strains in `buffers.trial`.
 fn admissible<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     strains: &StageStrains<S>,
-    step: &Step<S>,
+    buffers: &mut Buffers<S>,
     cap: f64,
-) -> Result<(f64, Configuration<S>), (f64, Error)> {
+    trial: &mut Configuration<S>,
+) -> Result<f64, (f64, Error)> {
     let mut fraction = cap;
-    for _ in 0..HALVINGS {
-        match mesh.configure(&moved(strains, step, fraction)) {
-            Ok(state) => return Ok((fraction, state)),
+    for halving in 0..=HALVINGS {
+        buffers.move_by(strains, fraction);
+        match mesh.configure(&buffers.trial, trial) {
+            Ok(()) => return Ok(fraction),
+            Err(error) if halving == HALVINGS => return Err((fraction, error)),
             Err(_) => fraction *= 0.5,
         }
     }
-    match mesh.configure(&moved(strains, step, fraction)) {
-        Ok(state) => Ok((fraction, state)),
-        Err(error) => Err((fraction, error)),
-    }
+    Ok(fraction)
 }

@@ -20,6 +20,23 @@ pub struct ErrorEstimate {
     pub position: f64,
     /// Of their rotations, rad.
     pub rotation: f64,
+    /// Of their wrenches, relative to the largest of the rod (moments in units of its length).
+    pub wrench: f64,
+}
+
+impl ErrorEstimate {
+    /// The largest of position / L, rotation and wrench.
+    pub fn relative(&self, length: f64) -> f64 {
+        (self.position / length).max(self.rotation).max(self.wrench)
+    }
+
+    pub(super) fn scaled(&self, factor: f64) -> Self {
+        Self {
+            position: self.position * factor,
+            rotation: self.rotation * factor,
+            wrench: self.wrench * factor,
+        }
+    }
 }
 
 /// How a solve went.

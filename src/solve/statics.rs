@@ -1,14 +1,14 @@
 use std::time::Instant;
 
-use super::equilibrium::{Configuration, Mesh, StageStrains};
+use super::cascade::Cascade;
 use super::failure::{Failure, Reason};
-use super::newton::{Newton, Outcome};
-use super::report::{ErrorEstimate, Iteration, Report};
-use super::solution::{Node, StaticSolution};
+use super::linear::Buffers;
+use super::newton::{Newton, Stop};
+use super::report::{Iteration, Report};
+use super::solution::StaticSolution;
+use super::workspace::Workspace;
 use crate::body::Elastic;
 use crate::error::Error;
-use crate::lie::{Strain, Wrench};
-use crate::material::Request;
 use crate::rod::Rod;
 
 /// The order of the element: the error falls with this power of the element length.
@@ -23,10 +23,11 @@ pub enum Order {
     Six,
 }
 
-/// Solves static equilibrium on a uniform mesh by Newton's method with the exact tangent.
+/// Solves static equilibrium by Newton's method with the exact tangent: to an accuracy, or on a mesh.
 ///
-/// It solves a mesh of half as many elements first: that gives the start for the mesh asked for, and the difference of both,
-/// divided by 2^order − 1, the error estimate.
+/// [`Statics::to`] is given an error. It starts from a coarse mesh and cuts elements where the defect of the strong form is large, until
+/// the estimated error is below the one asked for. On a mesh of a given number of elements, the default, it solves half as many first:
+/// that gives the start for the mesh asked for, and the difference of both, divided by 2^order − 1, the error estimate.
 ///
 /// ```
 /// use hyperrod::{Body, Pose, Rod, Statics, load::DeadWrench, section::Stiffness};
@@ -36,19 +37,25 @@ pub enum Order {
 /// let body = Body::new(1.0, Stiffness::diagonal([1.0, 1.0, 0.8, 1e4, 1e4, 3e4])?)?;
 /// let rod = Rod::clamped(body, Pose::identity()).with_tip_load(DeadWrench::force(vector![1.0, 0.0, 0.0])?);
 ///
-/// let solution = Statics::default().solve(&rod)?;
+/// let solution = Statics::to(1e-8).solve(&rod)?;
 /// let tip = solution.tip().pose.position; // bends towards +x
-/// assert!((tip.x - 0.3018).abs() < 1e-4 && solution.report().error.position < 1e-6);
+/// assert!((tip.x - 0.3018).abs() < 1e-4 && solution.report().error.position < 1e-8);
+///
+/// let on_a_mesh = Statics { elements: 32, ..Statics::default() }.solve(&rod)?;
+/// assert!((on_a_mesh.tip().pose.position - tip).norm() < 1e-6);
 /// # Ok(()) }
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statics {
-    /// How many elements; rounded up to an even number.
+    /// The largest error allowed of positions / L, of rotations, and of wrenches relative to the largest
+    /// ([`ErrorEstimate::relative`](super::ErrorEstimate::relative)); the solver then chooses mesh and Newton's tolerance. `None` for the mesh below.
+    pub accuracy: Option<f64>,
+    /// How many elements of equal length; rounded up to an even number. Of no effect where an accuracy is asked for.
     pub elements: usize,
     /// The order of the element.
     pub order: Order,
     /// Newton's method stops after a full step smaller than this (the error left is then of the size of its square). See
-    /// [`Iteration::step`] for how a step is measured.
+    /// [`Iteration::step`] for how a step is measured. Of no effect where an accuracy is asked for.
     pub tolerance: f64,
     /// The largest number of Newton iterations on a mesh.
     pub max_iterations: usize,
@@ -57,7 +64,7 @@ pub struct Statics {
 impl Default for Statics {
     /// 16 elements of order 4, tolerance 1e-9, at most 50 iterations.
     fn default() -> Self {
-        Self { elements: 16, order: Order::Four, tolerance: 1e-9, max_iterations: 50 }
+        Self { accuracy: None, elements: 16, order: Order::Four, tolerance: 1e-9, max_iterations: 50 }
     }
 }
 
@@ -65,6 +72,14 @@ impl Default for Statics {
 const MAX_ELEMENTS: usize = 1_000_000;
 
 impl Statics {
+    /// To an accuracy, on a mesh of the solver's choice, with elements of order 6: they are the fastest at every accuracy from 1e-4 on.
+    ///
+    /// The error is that of the discretisation: a section whose quadrature is not exact adds its own (see
+    /// [`Section::with_tolerance`](crate::section::Section::with_tolerance)).
+    pub fn to(accuracy: f64) -> Self {
+        Self { accuracy: Some(accuracy), order: Order::Six, ..Self::default() }
+    }
+
     /// Solves the rod from its reference shape.
     ///
     /// # Errors
@@ -82,14 +97,35 @@ impl Statics {
         rod: &Rod<B>,
         mut observer: impl FnMut(&Iteration),
     ) -> Result<StaticSolution, Box<Failure>> {
+        self.run(&mut Workspace::default(), rod, &mut observer)
+    }
+
+    /// As [`solve`](Self::solve), in memory that is kept from one solve to the next.
+    ///
+    /// # Errors
+    /// As [`solve`](Self::solve).
+    pub fn solve_in<B: Elastic>(
+        &self,
+        workspace: &mut Workspace,
+        rod: &Rod<B>,
+    ) -> Result<StaticSolution, Box<Failure>> {
+        self.run(workspace, rod, &mut |_| ())
+    }
+
+    fn run<B: Elastic>(
+        &self,
+        workspace: &mut Workspace,
+        rod: &Rod<B>,
+        observer: &mut dyn FnMut(&Iteration),
+    ) -> Result<StaticSolution, Box<Failure>> {
         if let Err(error) = self.check() {
             let reason = Reason::Options(error);
             return Err(Box::new(Failure { reason, report: Report::default(), last: None }));
         }
         match self.order {
-            Order::Two => self.solve_with::<B, 1>(rod, &mut observer),
-            Order::Four => self.solve_with::<B, 2>(rod, &mut observer),
-            Order::Six => self.solve_with::<B, 3>(rod, &mut observer),
+            Order::Two => self.solve_on(workspace.one(), rod, observer),
+            Order::Four => self.solve_on(workspace.two(), rod, observer),
+            Order::Six => self.solve_on(workspace.three(), rod, observer),
         }
     }
 
@@ -101,133 +137,39 @@ impl Statics {
         if !(self.tolerance > 0.0 && self.tolerance.is_finite()) {
             return invalid("tolerance of the Newton step", self.tolerance, "positive and finite");
         }
+        if let Some(accuracy) = self.accuracy.filter(|&a| !(a > 0.0 && a.is_finite())) {
+            return invalid("accuracy asked for", accuracy, "positive and finite");
+        }
         if self.max_iterations == 0 {
             return invalid("iteration limit", 0.0, "at least 1");
         }
         Ok(())
     }
 
-    fn solve_with<B: Elastic, const S: usize>(
+    fn solve_on<B: Elastic, const S: usize>(
         &self,
+        buffers: &mut Buffers<S>,
         rod: &Rod<B>,
         observer: &mut dyn FnMut(&Iteration),
     ) -> Result<StaticSolution, Box<Failure>> {
         let start = Instant::now();
-        let mut newton = Newton { max_iterations: self.max_iterations, tolerance: self.tolerance, observer };
-        let coarse_mesh = Mesh::<B, S>::new(rod, self.elements.div_ceil(2));
-        let at_rest = vec![[Strain::zero(); S]; coarse_mesh.elements];
-        let coarse = newton.solve(&coarse_mesh, at_rest);
-        let mut report =
-            Report { iterations: coarse.iterations.clone(), residual: coarse.residual, ..Report::default() };
-        if coarse.failure.is_some() {
-            report.elapsed = start.elapsed();
-            return Err(failed(&coarse_mesh, coarse, report));
-        }
-        let mesh = Mesh::<B, S>::new(rod, 2 * coarse_mesh.elements);
-        let fine = newton.solve(&mesh, coarse_mesh.prolong(&coarse.strains, 2));
-        report.iterations.extend(&fine.iterations);
-        report.residual = fine.residual;
-        if fine.failure.is_some() {
-            report.elapsed = start.elapsed();
-            return Err(failed(&mesh, fine, report));
-        }
-        if let (Some(coarse), Some(fine)) = (&coarse.state, &fine.state) {
-            report.error = difference(coarse, fine, 2 * S as i32);
-        }
-        let Some(state) = &fine.state else {
-            let reason = Reason::Singular {
-                iteration: fine.iterations.len(),
-                error: Error::Singular { matrix: "tangent of the rod", s: 0.0 },
-            };
-            return Err(Box::new(Failure { reason, report, last: None }));
+        let stop = Stop::Step(self.tolerance);
+        let newton = Newton { max_iterations: self.max_iterations, stop, observer };
+        let mut cascade = Cascade::<B, S>::new(rod, newton, buffers);
+        let solved = match self.accuracy {
+            None => cascade.on_mesh(self.elements.div_ceil(2)),
+            Some(accuracy) => cascade.to(accuracy),
         };
-        let mut solution = describe(&mesh, &fine.strains, state, report);
-        solution.report.elapsed = start.elapsed();
-        Ok(solution)
-    }
-}
-
-fn failed<B: Elastic, const S: usize>(
-    mesh: &Mesh<'_, B, S>,
-    outcome: Outcome<S>,
-    report: Report,
-) -> Box<Failure> {
-    let last = outcome.state.as_ref().map(|state| describe(mesh, &outcome.strains, state, report.clone()));
-    let reason = outcome.failure.unwrap_or(Reason::IterationLimit {
-        limit: outcome.iterations.len(),
-        step: f64::NAN,
-        tolerance: f64::NAN,
-    });
-    Box::new(Failure { reason, report, last })
-}
-
-/// Richardson's estimate from the nodes both meshes have: a difference of (2^p − 1) errors of the finer one.
-fn difference<const S: usize>(
-    coarse: &Configuration<S>,
-    fine: &Configuration<S>,
-    order: i32,
-) -> ErrorEstimate {
-    let factor = 1.0 / (2.0_f64.powi(order) - 1.0);
-    let mut error = ErrorEstimate::default();
-    for (a, b) in coarse.node_pose.iter().zip(fine.node_pose.iter().step_by(2)) {
-        let between = (a.inverse() * *b).log();
-        error.position = error.position.max(factor * (a.position - b.position).norm());
-        error.rotation = error.rotation.max(factor * between.angular.norm());
-    }
-    error
-}
-
-fn describe<B: Elastic, const S: usize>(
-    mesh: &Mesh<'_, B, S>,
-    strains: &StageStrains<S>,
-    state: &Configuration<S>,
-    report: Report,
-) -> StaticSolution {
-    let mut stages = Vec::with_capacity(S * mesh.elements);
-    for (i, element) in strains.iter().enumerate() {
-        for k in 0..S {
-            stages.push(Node {
-                s: mesh.stage_s(i, k),
-                pose: state.node_pose[i] * state.kinematics[i].stage[k],
-                strain: element[k],
-                wrench: state.response[i][k].wrench,
-            });
-        }
-    }
-    let nodes = (0..=mesh.elements)
-        .map(|i| {
-            let (element, tau) = if i < mesh.elements { (i, 0.0) } else { (i - 1, 1.0) };
-            let weights = mesh.table.interpolation(tau);
-            let mut guess = Strain::zero();
-            for k in 0..S {
-                guess += strains[element][k] * weights[k];
+        let elapsed = start.elapsed();
+        match solved {
+            Ok(mut solution) => {
+                solution.report.elapsed = elapsed;
+                Ok(solution)
             }
-            let (s, wrench) = (mesh.node_s(i), state.node_wrench[i]);
-            let strain = strain_of_wrench(mesh.rod.body(), s, &wrench, guess);
-            Node { s, pose: state.node_pose[i], strain, wrench }
-        })
-        .collect();
-    let (strain_energy, load_potential) = mesh.energies(state);
-    StaticSolution { nodes, stages, strain_energy, load_potential, report }
-}
-
-/// Solves Ψ(Δξ) = Λ at a node by Newton's method. Where that fails (a law without a unique inverse), the strain interpolated from
-/// the stages stands.
-fn strain_of_wrench<B: Elastic>(body: &B, s: f64, wrench: &Wrench, guess: Strain) -> Strain {
-    let mut strain = guess;
-    let mut previous = f64::INFINITY;
-    for _ in 0..20 {
-        let Ok(response) = body.respond(s, &strain, Request::Tangent) else { return guess };
-        let residual = (*wrench - response.wrench).to_vector();
-        let Some(step) = response.tangent.lu().solve(&residual) else { return guess };
-        // a step relative to the strains of the rod: curvatures in units of 1/L
-        let step = Strain::from_vector(&step);
-        let size = step.linear.norm() + step.angular.norm() * body.length();
-        strain += step;
-        if size < 1e-14 || (size < 1e-9 && size > 0.5 * previous) {
-            return strain;
+            Err(mut failure) => {
+                failure.report.elapsed = elapsed;
+                Err(failure)
+            }
         }
-        previous = size;
     }
-    guess
 }

@@ -34,13 +34,16 @@ pub struct Jet<L, const N: usize, const M: usize> {
 }
 
 /// The body for every index below `$n` (at most 7), written out: a loop is unrolled too late for the masks of zeros to be seen through.
+///
+/// Conditions on indices stand in `const` blocks, so that what cannot happen for a number of variables is never compiled for it.
 macro_rules! each {
     ($i:ident < $n:expr, $body:block) => {
         each!(@ $i, $n, $body, 0, 1, 2, 3, 4, 5, 6)
     };
     (@ $i:ident, $n:expr, $body:block, $($index:literal),*) => {
-        $(if $index < $n {
-            let $i: usize = $index;
+        $(if const { $index < $n } {
+            #[allow(non_upper_case_globals)]
+            const $i: usize = $index;
             $body
         })*
     };
@@ -90,8 +93,8 @@ impl<L: Lane, const N: usize, const M: usize> Jet<L, N, M> {
                 out.gradient[i] = self.gradient[i] * f1;
             }
             each!(j < N, {
-                if M > 0 && i <= j {
-                    let k = packed(N, i, j);
+                if const { M > 0 && i <= j } {
+                    let k = const { packed(N, i, j) };
                     if has(self.first, i) && has(self.first, j) {
                         out.add_second(k, self.gradient[i] * self.gradient[j], f2);
                     }
@@ -120,9 +123,11 @@ impl<L: Lane, const N: usize, const M: usize> Jet<L, N, M> {
                 self.gradient[i] = self.gradient[i] * factor;
             }
             each!(j < N, {
-                let k = packed(N, i, j);
-                if M > 0 && i <= j && has(self.second, k) {
-                    self.hessian[k] = self.hessian[k] * factor;
+                if const { M > 0 && i <= j } {
+                    let k = const { packed(N, i, j) };
+                    if has(self.second, k) {
+                        self.hessian[k] = self.hessian[k] * factor;
+                    }
                 }
             });
         });
@@ -156,10 +161,13 @@ impl<L: Lane, const N: usize, const M: usize> Add for Jet<L, N, M> {
                 self.gradient[i] = other.gradient[i];
             }
             each!(j < N, {
-                let k = packed(N, i, j);
-                if M > 0 && i <= j && has(other.second, k) {
-                    let sum = self.hessian[k] + other.hessian[k];
-                    self.hessian[k] = if has(self.second, k) { sum } else { other.hessian[k] };
+                if const { M > 0 && i <= j } {
+                    let k = const { packed(N, i, j) };
+                    if has(self.second & other.second, k) {
+                        self.hessian[k] = self.hessian[k] + other.hessian[k];
+                    } else if has(other.second, k) {
+                        self.hessian[k] = other.hessian[k];
+                    }
                 }
             });
         });
@@ -181,10 +189,13 @@ impl<L: Lane, const N: usize, const M: usize> Sub for Jet<L, N, M> {
                 self.gradient[i] = -other.gradient[i];
             }
             each!(j < N, {
-                let k = packed(N, i, j);
-                if M > 0 && i <= j && has(other.second, k) {
-                    let sum = self.hessian[k] - other.hessian[k];
-                    self.hessian[k] = if has(self.second, k) { sum } else { -other.hessian[k] };
+                if const { M > 0 && i <= j } {
+                    let k = const { packed(N, i, j) };
+                    if has(self.second & other.second, k) {
+                        self.hessian[k] = self.hessian[k] - other.hessian[k];
+                    } else if has(other.second, k) {
+                        self.hessian[k] = -other.hessian[k];
+                    }
                 }
             });
         });
@@ -210,14 +221,14 @@ impl<L: Lane, const N: usize, const M: usize> Mul for Jet<L, N, M> {
                 out.gradient[i] = b.gradient[i] * a.value;
             }
             each!(j < N, {
-                if M > 0 && i <= j {
-                    let k = packed(N, i, j);
+                if const { M > 0 && i <= j } {
+                    let k = const { packed(N, i, j) };
                     if has(a.first, i) && has(b.first, j) {
                         out.add_second(k, a.gradient[i], b.gradient[j]);
                     }
-                    if i == j && has(out.second, k) {
+                    if const { i == j } && has(out.second, k) {
                         out.hessian[k] = out.hessian[k] + out.hessian[k];
-                    } else if i != j && has(a.first, j) && has(b.first, i) {
+                    } else if const { i != j } && has(a.first, j) && has(b.first, i) {
                         out.add_second(k, a.gradient[j], b.gradient[i]);
                     }
                     if has(a.second, k) {

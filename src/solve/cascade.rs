@@ -1,0 +1,211 @@
+//! From a coarse mesh to a fine one: every mesh starts Newton's method with the strain polynomials of the one before.
+
+use super::describe::{describe, failed};
+use super::equilibrium::Configuration;
+use super::estimate::{Defect, Level, difference, first_elements};
+use super::failure::{Failure, Reason};
+use super::linear::Buffers;
+use super::mesh::{Mesh, StageStrains};
+use super::newton::{Newton, Outcome, Stop};
+use super::report::{ErrorEstimate, Report};
+use super::solution::StaticSolution;
+use crate::body::Elastic;
+use crate::error::Error;
+use crate::lie::Strain;
+use crate::rod::Rod;
+
+/// Meshes a solve to an accuracy may try.
+const MAX_LEVELS: usize = 16;
+
+/// The most elements it may use.
+const MAX_ELEMENTS: usize = 20_000;
+
+/// The estimate is multiplied by this: the ratio of two defects predicts a gain to a factor of about two.
+const SAFETY: f64 = 2.0;
+
+/// As [`SAFETY`], where the coarser mesh is one element.
+const SAFETY_OF_ONE: f64 = 16.0;
+
+/// An element is cut into at most this many pieces at a time: further the prediction does not reach.
+const MOST_PARTS: f64 = 6.0;
+
+/// As [`MOST_PARTS`], of the first mesh, whose error is only guessed.
+const FIRST_PARTS: f64 = 4.0;
+
+/// The error that Newton's method may leave on the first mesh, whose own is larger.
+const FIRST_NEWTON: f64 = 1e-3;
+
+/// The error that Newton's method may leave on a mesh, of that of the mesh.
+const NEWTON_SHARE: f64 = 0.02;
+
+/// How often a first mesh on which Newton's method fails is made four times finer.
+const FIRST_MESHES: usize = 3;
+
+pub(super) struct Cascade<'r, 'o, B, const S: usize> {
+    rod: &'r Rod<B>,
+    newton: Newton<'o>,
+    buffers: &'o mut Buffers<S>,
+    report: Report,
+}
+
+type Solved = Result<StaticSolution, Box<Failure>>;
+
+impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
+    pub(super) fn new(rod: &'r Rod<B>, newton: Newton<'o>, buffers: &'o mut Buffers<S>) -> Self {
+        Self { rod, newton, buffers, report: Report::default() }
+    }
+
+    /// A mesh of so many equal elements, then one of twice as many, which is the answer.
+    pub(super) fn on_mesh(&mut self, coarse_elements: usize) -> Solved {
+        let coarse_mesh = Mesh::<B, S>::uniform(self.rod, coarse_elements);
+        let coarse = self.solve(&coarse_mesh, at_rest(coarse_elements))?;
+        let mesh = Mesh::<B, S>::uniform(self.rod, 2 * coarse_elements);
+        let parts = vec![2; coarse_elements];
+        let fine = self.solve(&mesh, coarse_mesh.prolong(&coarse.strains, &parts))?;
+        if let (Some(coarse), Some(fine)) = (&coarse.state, &fine.state) {
+            // a difference of (2^p − 1) errors of the finer one
+            let factor = 1.0 / (4.0_f64.powi(S as i32) - 1.0);
+            let length = self.rod.body().length();
+            self.report.error = difference(coarse, fine, parts.into_iter(), length).scaled(factor);
+        }
+        self.answer(&mesh, &fine)
+    }
+
+    /// Cuts elements until the estimated error is below `accuracy`.
+    pub(super) fn to(&mut self, accuracy: f64) -> Solved {
+        let length = self.rod.body().length();
+        self.newton.stop = Stop::Error(FIRST_NEWTON);
+        let mut level = self.first_level()?;
+        // the sum of the defects is of the size of the error: enough to choose the second mesh
+        let mut predicted = level.defect.total();
+        let mut parts = cuts(&level.defect.shares, accuracy / predicted, 2 * S, FIRST_PARTS);
+        let mut best = f64::INFINITY;
+        for _ in 0..MAX_LEVELS {
+            let mesh = level.mesh.refined(&parts);
+            let start = level.mesh.prolong(&level.outcome.strains, &parts);
+            predicted *= promised(&level.defect.shares, &parts, 2 * S);
+            self.newton.stop =
+                Stop::Error((NEWTON_SHARE * predicted.max(accuracy)).clamp(1e-18, FIRST_NEWTON));
+            let fine = self.level(mesh, start)?;
+            self.report.error = estimate(&level, &fine, &parts, length);
+            let estimated = self.report.error.relative(length);
+            if estimated <= accuracy {
+                return self.answer(&fine.mesh, &fine.outcome);
+            }
+            parts = cuts(&fine.defect.shares, accuracy / estimated, 2 * S, MOST_PARTS);
+            predicted = estimated;
+            let elements: usize = parts.iter().sum();
+            let coarse = std::mem::replace(&mut level, fine).outcome;
+            coarse.state.into_iter().for_each(|state| self.buffers.recycle(state));
+            // below 1e-9 an error that no longer falls is rounding
+            if elements > MAX_ELEMENTS || (estimated < 1e-9 && estimated > 0.5 * best) {
+                break;
+            }
+            best = best.min(estimated);
+        }
+        let elements = level.mesh.elements();
+        let estimated = self.report.error.relative(length);
+        let reason = Reason::Accuracy { asked: accuracy, estimated, elements };
+        let last = self.answer(&level.mesh, &level.outcome).ok();
+        Err(Box::new(Failure { reason, report: self.report.clone(), last }))
+    }
+
+    /// The first mesh, from rest; a finer one where Newton's method fails on it.
+    fn first_level(&mut self) -> Result<Level<'r, B, S>, Box<Failure>> {
+        let probe = Mesh::<B, S>::uniform(self.rod, 1);
+        let mut state = self.buffers.configuration();
+        let mut elements = match probe.configure(&at_rest(1), &mut state) {
+            Ok(()) => first_elements(&probe, &state),
+            Err(_) => 2, // the solve finds the same, and says so
+        };
+        self.buffers.recycle(state);
+        let mut trial = 1;
+        loop {
+            let level = self.level(Mesh::uniform(self.rod, elements), at_rest(elements));
+            if level.is_ok() || trial == FIRST_MESHES {
+                return level;
+            }
+            trial += 1;
+            elements *= 4;
+        }
+    }
+
+    fn level(
+        &mut self,
+        mesh: Mesh<'r, B, S>,
+        start: StageStrains<S>,
+    ) -> Result<Level<'r, B, S>, Box<Failure>> {
+        let outcome = self.solve(&mesh, start)?;
+        let defect = match &outcome.state {
+            Some(state) => Defect::of(&mesh, &outcome.strains, state),
+            None => Defect { shares: vec![0.0; mesh.elements()] },
+        };
+        Ok(Level { mesh, outcome, defect })
+    }
+
+    fn solve(&mut self, mesh: &Mesh<'_, B, S>, start: StageStrains<S>) -> Result<Outcome<S>, Box<Failure>> {
+        let outcome = self.newton.solve(mesh, start, self.buffers, &mut self.report.iterations);
+        self.report.residual = outcome.residual;
+        if outcome.failure.is_some() {
+            return Err(failed(mesh, outcome, self.report.clone()));
+        }
+        Ok(outcome)
+    }
+
+    fn answer(&self, mesh: &Mesh<'_, B, S>, outcome: &Outcome<S>) -> Solved {
+        let Some(state) = &outcome.state else {
+            let reason = Reason::Singular {
+                iteration: outcome.iterations,
+                error: Error::Singular { matrix: "tangent of the rod", s: 0.0 },
+            };
+            return Err(Box::new(Failure { reason, report: self.report.clone(), last: None }));
+        };
+        Ok(describe(mesh, &outcome.strains, state, self.report.clone()))
+    }
+}
+
+fn at_rest<const S: usize>(elements: usize) -> StageStrains<S> {
+    vec![[Strain::zero(); S]; elements]
+}
+
+/// The error of the finer of two meshes: d = E − E′ and E′ ≈ R E, with the gain R read off the defects, or off the order of the element
+/// where that promises less.
+fn estimate<B: Elastic, const S: usize>(
+    coarse: &Level<'_, B, S>,
+    fine: &Level<'_, B, S>,
+    parts: &[usize],
+    length: f64,
+) -> ErrorEstimate {
+    let states: [Option<&Configuration<S>>; 2] = [coarse.outcome.state.as_ref(), fine.outcome.state.as_ref()];
+    let [Some(a), Some(b)] = states else { return ErrorEstimate::default() };
+    let difference = difference(a, b, parts.iter().copied(), length);
+    let before = coarse.defect.total();
+    let found = if before > 0.0 { fine.defect.total() / before } else { 0.0 };
+    let gain = promised(&coarse.defect.shares, parts, 2 * S).max(found).min(0.5);
+    // a single element has no node inside: the difference at its ends says less
+    let safety = if coarse.mesh.elements() == 1 { SAFETY_OF_ONE } else { SAFETY };
+    difference.scaled(safety * gain / (1.0 - gain))
+}
+
+/// By what factor the error falls where the element holds its order: Σ c k⁻ᵖ / Σ c.
+fn promised(shares: &[f64], parts: &[usize], order: usize) -> f64 {
+    let total: f64 = shares.iter().sum();
+    if total > 0.0 {
+        shares.iter().zip(parts).map(|(share, &k)| share / (k as f64).powi(order as i32)).sum::<f64>() / total
+    } else {
+        0.0
+    }
+}
+
+/// Into how many pieces to cut every element, so that the error falls by `factor` with as few elements as can be.
+///
+/// Minimising Σk under Σ c k⁻ᵖ = factor Σc gives k ∝ c^{1/(p+1)}. Every element is cut: where it is not, the estimate is off.
+fn cuts(shares: &[f64], factor: f64, order: usize, most: f64) -> Vec<usize> {
+    let p = order as f64;
+    let total: f64 = shares.iter().sum();
+    let density: Vec<f64> = shares.iter().map(|c| c.powf(1.0 / (p + 1.0))).collect();
+    let spread: f64 = density.iter().sum();
+    // a fifth of what is needed, so that the estimate of the next mesh is met with room
+    let scale = (spread.max(f64::MIN_POSITIVE) / (0.2 * factor * total).max(f64::MIN_POSITIVE)).powf(1.0 / p);
+    density.iter().map(|d| (scale * d).ceil().clamp(2.0, most) as usize).collect()
+}

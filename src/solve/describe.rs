@@ -1,0 +1,92 @@
+//! From the unknowns of a mesh to what a user reads.
+
+use super::equilibrium::Configuration;
+use super::failure::{Failure, Reason};
+use super::mesh::{Mesh, StageStrains};
+use super::newton::Outcome;
+use super::report::Report;
+use super::solution::{Node, StaticSolution};
+use crate::body::Elastic;
+use crate::lie::{Strain, Wrench};
+use crate::material::Request;
+
+/// The failure that Newton's method ended with.
+pub(super) fn failed<B: Elastic, const S: usize>(
+    mesh: &Mesh<'_, B, S>,
+    outcome: Outcome<S>,
+    report: Report,
+) -> Box<Failure> {
+    let last = outcome.state.as_ref().map(|state| describe(mesh, &outcome.strains, state, report.clone()));
+    let reason = outcome.failure.unwrap_or(Reason::IterationLimit {
+        limit: outcome.iterations,
+        step: f64::NAN,
+        tolerance: f64::NAN,
+    });
+    Box::new(Failure { reason, report, last })
+}
+
+/// The solution that a configuration describes.
+pub(super) fn describe<B: Elastic, const S: usize>(
+    mesh: &Mesh<'_, B, S>,
+    strains: &StageStrains<S>,
+    state: &Configuration<S>,
+    report: Report,
+) -> StaticSolution {
+    let mut stages = Vec::with_capacity(S * mesh.elements());
+    for (i, element) in strains.iter().enumerate() {
+        for k in 0..S {
+            stages.push(Node {
+                s: mesh.stage_s(i, k),
+                pose: state.node_pose[i] * state.kinematics[i].stage[k],
+                strain: element[k],
+                wrench: state.response[i][k].wrench,
+            });
+        }
+    }
+    let nodes = (0..=mesh.elements())
+        .map(|i| {
+            let (element, tau) = if i < mesh.elements() { (i, 0.0) } else { (i - 1, 1.0) };
+            let guess = mesh.interpolate(&strains[element], tau);
+            let (s, wrench) = (mesh.node_s(i), state.node_wrench[i]);
+            let strain = strain_of_wrench(mesh.rod.body(), s, &wrench, guess);
+            Node { s, pose: state.node_pose[i], strain, wrench }
+        })
+        .collect();
+    let (strain_energy, load_potential) = mesh.energies(state);
+    StaticSolution { nodes, stages, strain_energy, load_potential, report }
+}
+
+/// The strain of Ψ(Δξ) = Λ at a node by Newton's method. Where that fails (a law without a unique inverse), the strain interpolated from
+/// the stages stands.
+fn strain_of_wrench<B: Elastic>(body: &B, s: f64, wrench: &Wrench, guess: Strain) -> Strain {
+    let mut strain = guess;
+    let mut previous = f64::INFINITY;
+    for _ in 0..20 {
+        let Some(step) = strain_correction(body, s, wrench, &strain) else { return guess };
+        // a step relative to the strains of the rod: curvatures in units of 1/L
+        let size = step.linear.norm() + step.angular.norm() * body.length();
+        strain += step;
+        // its square is below rounding, or it no longer falls
+        if size < 1e-9 || (size < 1e-7 && size > 0.5 * previous) {
+            return strain;
+        }
+        previous = size;
+    }
+    guess
+}
+
+/// (∂Ψ/∂Δξ)⁻¹ (Λ − Ψ(Δξ)); `None` for an inadmissible strain or a singular tangent.
+pub(super) fn strain_correction<B: Elastic>(
+    body: &B,
+    s: f64,
+    wrench: &Wrench,
+    strain: &Strain,
+) -> Option<Strain> {
+    let response = body.respond(s, strain, Request::Tangent).ok()?;
+    let residual = (*wrench - response.wrench).to_vector();
+    let step = match response.tangent.cholesky() {
+        Some(factor) => factor.solve(&residual),
+        None => response.tangent.lu().solve(&residual)?,
+    };
+    Some(Strain::from_vector(&step))
+}

@@ -1,0 +1,101 @@
+//! How wrong a mesh is: the defect of its strain polynomials, and the difference of two meshes.
+
+use super::describe::strain_correction;
+use super::equilibrium::Configuration;
+use super::mesh::{Mesh, StageStrains};
+use super::newton::Outcome;
+use super::report::ErrorEstimate;
+use crate::body::Elastic;
+use crate::lie::Wrench;
+
+/// Where the error of a mesh comes from, element by element.
+///
+/// The strains are a polynomial whose stages satisfy Ψ(Δξ) = Λ; between them the strong form has a defect. δ, the change that would
+/// remove it at an end of the element, is the error of the polynomial there, of order h^S. Poses and wrenches at the nodes converge
+/// twice as fast: an element adds the defect integrated against the error of the Green's function, which is of the same kind, so about h δ².
+/// The sum over elements is no error, but falls like one: its ratio between two meshes tells how much was gained.
+pub(super) struct Defect {
+    /// h δ² of every element, with δ the largest of stretch change and curvature change × L.
+    pub(super) shares: Vec<f64>,
+}
+
+impl Defect {
+    pub(super) fn of<B: Elastic, const S: usize>(
+        mesh: &Mesh<'_, B, S>,
+        strains: &StageStrains<S>,
+        state: &Configuration<S>,
+    ) -> Self {
+        let (body, length) = (mesh.rod.body(), mesh.rod.body().length());
+        let share = |i: usize| {
+            let ends = [(i, 0.0), (i + 1, 1.0)].map(|(node, tau)| {
+                let guess = mesh.interpolate(&strains[i], tau);
+                match strain_correction(body, mesh.node_s(node), &state.node_wrench[node], &guess) {
+                    Some(change) => change.linear.norm().max(change.angular.norm() * length),
+                    None => 1.0,
+                }
+            });
+            let delta = ends[0].max(ends[1]);
+            mesh.h(i) / length * delta * delta
+        };
+        Self { shares: (0..mesh.elements()).map(share).collect() }
+    }
+
+    pub(super) fn total(&self) -> f64 {
+        self.shares.iter().sum()
+    }
+}
+
+/// The largest differences of two meshes at the nodes they share; `parts` made the finer out of the coarser.
+pub(super) fn difference<const S: usize>(
+    coarse: &Configuration<S>,
+    fine: &Configuration<S>,
+    parts: impl Iterator<Item = usize>,
+    length: f64,
+) -> ErrorEstimate {
+    let mut error = ErrorEstimate::default();
+    let mut largest: f64 = 0.0;
+    let mut node = 0;
+    let size = |w: &Wrench| w.force.norm().max(w.moment.norm() / length);
+    for (i, count) in std::iter::once(0).chain(parts).enumerate() {
+        node += count;
+        let (a, b) = (&coarse.node_pose[i], &fine.node_pose[node]);
+        let between = (a.inverse() * *b).log();
+        error.position = error.position.max((a.position - b.position).norm());
+        error.rotation = error.rotation.max(between.angular.norm());
+        let (a, b) = (coarse.node_wrench[i], fine.node_wrench[node]);
+        error.wrench = error.wrench.max(size(&(a - b)));
+        largest = largest.max(size(&b));
+    }
+    if largest > 0.0 {
+        error.wrench /= largest;
+    }
+    error
+}
+
+/// How many elements the first mesh has: enough that the loads, at the reference shape, turn none of them by much more than a radian.
+///
+/// A transverse force P makes boundary layers of length √(EI/P), a moment M the curvature M/EI; a reference may be curved itself.
+pub(super) fn first_elements<B: Elastic, const S: usize>(
+    mesh: &Mesh<'_, B, S>,
+    state: &Configuration<S>,
+) -> usize {
+    let length = mesh.rod.body().length();
+    let stiffness = state.response.iter().flatten().flat_map(|r| [r.tangent[(0, 0)], r.tangent[(1, 1)]]);
+    let bending = stiffness.fold(f64::INFINITY, |least, k| least.min(k.abs()));
+    let force = state.node_wrench.iter().fold(0.0, |size: f64, w| size.max(w.force.norm()));
+    let moment = state.node_wrench.last().map_or(0.0, |w| w.moment.norm());
+    let turn = (0..mesh.elements())
+        .flat_map(|i| mesh.twists(i, &[crate::lie::Strain::zero(); S]))
+        .fold(0.0, |turn: f64, xi| turn.max(xi.angular.norm() * length));
+    let wanted =
+        (0.3 * length * (force / bending).sqrt()).max(0.25 * moment * length / bending).max(0.5 * turn);
+    // what is not finite is the rod's own trouble, found by the solve
+    if wanted.is_finite() { (wanted.ceil() as usize).clamp(1, 32) } else { 2 }
+}
+
+/// What a mesh that was solved leaves behind for the next one.
+pub(super) struct Level<'a, B, const S: usize> {
+    pub(super) mesh: Mesh<'a, B, S>,
+    pub(super) outcome: Outcome<S>,
+    pub(super) defect: Defect,
+}
