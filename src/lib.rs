@@ -172,7 +172,8 @@
 //! * Meshes that adapt: elements are of equal length, and the error estimate is reported, not acted on.
 //! * An error estimate of the section's quadrature for laws that are not polynomials.
 
-#[doc(hidden)]
+/// The dual numbers that sizes, angles and references along s are functions of: `use hyperrod::num_dual::{Dual64, DualNum};`
+#[doc(no_inline)]
 pub use num_dual;
 
 pub mod body;
