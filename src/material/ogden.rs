@@ -1,4 +1,4 @@
-use super::constants::{positive, require_coefficient};
+use super::constants::{positive, require, require_coefficient};
 use super::kinematics::{Deformation, Point};
 use super::law::Local;
 use crate::error::Result;
@@ -28,6 +28,9 @@ use crate::scalar::Scalar;
 /// let shear_modulus = 0.5 * terms.iter().map(|(mu, alpha)| mu * alpha).sum::<f64>();
 /// let rubber = Ogden::new(&terms, shear_modulus)?; // E = 3 G on a rigid section
 /// assert_eq!(rubber.shear_modulus(), shear_modulus);
+///
+/// let refused = Ogden::new(&[], shear_modulus).unwrap_err().to_string();
+/// assert!(refused.contains("number of terms"), "{refused}");
 /// # Ok::<(), hyperrod::Error>(())
 /// ```
 ///
@@ -45,6 +48,7 @@ impl Ogden {
     /// If there is no term, a number is not finite, an α_p is zero, or the shear modulus ½ Σ μ_p α_p or the bulk modulus λ + 2G/3
     /// is not positive.
     pub fn new(terms: &[(f64, f64)], lambda: f64) -> Result<Self> {
+        require(!terms.is_empty(), "number of terms of Ogden's law", 0.0, "at least 1")?;
         for (p, &(mu, alpha)) in terms.iter().enumerate() {
             require_coefficient(mu.is_finite(), || format!("mu_{}", p + 1), mu, "finite")?;
             let usable = alpha.is_finite() && alpha != 0.0;
