@@ -138,28 +138,30 @@
 //! | module | what lives there |
 //! |---|---|
 //! | [`error`] | one error type with structured fields |
-//! | [`scalar`] | [`Scalar`], the bound a law is written over, and primitives that keep the digits of small strains |
+//! | [`scalar`] | [`Scalar`], the bound a law is written over; the packed [`Jet`](scalar::Jet) the engine runs it on; primitives that keep the digits of small strains |
 //! | [`lie`] | SO(3) and SE(3): exp, log, Ad, ad, dexp; twists, strains and wrenches |
-//! | [`quadrature`] | rules on lines and plane shapes, exact to a stated degree, with positive weights |
-//! | [`material`] | energy densities and their derivatives at a point and over a section |
-//! | [`section`] | shapes that may vary along s; Δξ to U, Ψ, ∂Ψ/∂Δξ and Ψ′ |
+//! | [`quadrature`] | rules on lines and plane shapes, exact to a stated degree, with positive weights; compression |
+//! | [`material`] | energy densities, the laws at hand, and their derivatives at a point and over a section |
+//! | [`section`] | shapes that may vary along s, composites, resultants; Δξ to U, Ψ, ∂Ψ/∂Δξ and Ψ′; [`check`](section::check) |
 //! | [`body`] | length, section, reference strain, and mass where a scene asks for it |
-//! | [`load`] | gravity and tip wrenches, with exact derivatives |
+//! | [`load`] | gravity through the centre of mass, and tip wrenches, with exact derivatives |
 //! | [`rod`] | the scene, and the collocation element in the strains |
 //! | [`solve`] | Newton's method, the static solver with an accuracy or on a mesh, and its reports |
 //!
 //! # Ladder of models
 //!
-//! Each row is a choice, with the simplest first; take the first that is true of your rod. What each rung costs and how far off it
-//! is has not been measured yet.
+//! Each row is a choice, with the simplest first; take the first that is true of your rod. `cargo run --release --example engine_speed` prints
+//! what the levels of a law, the requests and the quadratures cost, as ratios to derivatives taken by hand; the table of
+//! [`material`] says how exact they are, and `cargo run --release --example material_check` what a law does in a section.
 //!
 //! | choice | rungs |
 //! |---|---|
-//! | section | [`Stiffness`](section::Stiffness): Ψ = K Δξ with numbers you measured; [`Section`](section::Section): an energy on a section that stays plane and rigid |
-//! | level of the law | [`Isotropic`](material::Isotropic): u(I₁−3, I₂−3, J−1), 2 variables; [`Local`](material::Local): u(F), 3; [`Sectional`](material::Sectional): u(Δξ, x, y), 6 |
-//! | way to write it | a trait, or [`isotropic!`], [`local!`], [`sectional!`] in closure syntax; [`material::isotropic`] and its siblings: a real closure, which always pays for every variable |
-//! | shape along s | a number; [`Linear`](section::Linear); a closure of s over a dual number |
-//! | quadrature | exact for a law with a stated degree; for another, of degree [`Section::DEFAULT_DEGREE`](section::Section::DEFAULT_DEGREE) or what [`with_degree`](section::Section::with_degree) asks for |
+//! | section | [`Stiffness`](section::Stiffness): Ψ = K Δξ with numbers you measured; [`Resultants`](section::Resultants): an energy per length in Δξ, such as a [`Ribbon`](section::Ribbon); [`Section`](section::Section): an energy density on a section that stays plane and rigid; [`Composite`](section::Composite): several of them |
+//! | level of the law | [`Isotropic`](material::Isotropic): u(I₁−3, I₂−3, J−1), 2 variables (a² + b² and e); [`Local`](material::Local): u(F), 3; [`Sectional`](material::Sectional): u(Δξ, x, y), 6; one more, s, for Ψ′ on a section that varies. A quadratic law that says it is uniform is integrated once, at rest |
+//! | way to write it | a trait, or [`isotropic!`], [`local!`], [`sectional!`] in closure syntax; [`material::isotropic`] and its siblings: a real closure, which always pays for every variable and misses what the compiler does for a type |
+//! | shape along s | a number; [`Linear`](section::Linear); a closure of s over a dual number; and any shape [`scaled`](section::Shape::scaled), [`rotated`](section::Shape::rotated) or [`shifted`](section::Shape::shifted) |
+//! | reference | straight; a constant ξ*; a function of s ([`ReferenceShape`](body::ReferenceShape)) |
+//! | quadrature | exact for a law with a stated degree; for another, of degree [`Section::DEFAULT_DEGREE`](section::Section::DEFAULT_DEGREE) or what [`with_degree`](section::Section::with_degree) or [`with_tolerance`](section::Section::with_tolerance) asks for |
 //! | element | [`Order`](solve::Order) 2, 4 or 6: one, two or three Gauss stages |
 //! | mass | none; [`with_density`](Body::with_density); [`with_mass_per_length`](Body::with_mass_per_length) |
 //!
@@ -169,9 +171,9 @@
 //! * Sections that contract, warp or ovalise. A rigid section is too stiff for rubber unless the constants are chosen for it (correction 3).
 //! * Ends other than clamped and free; follower loads, tendons, pressure; rods joined to rods.
 //! * A stability check: the solver finds an equilibrium, and does not say whether it is a stable one. It applies the load in one step.
-//! * An error estimate of the section's quadrature for laws that are not polynomials.
 
-#[doc(hidden)]
+/// The dual numbers that sizes, angles and references along s are functions of: `use hyperrod::num_dual::{Dual64, DualNum};`
+#[doc(no_inline)]
 pub use num_dual;
 
 pub mod body;

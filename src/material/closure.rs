@@ -30,7 +30,9 @@ pub struct SectionalClosure<F>(F);
 
 /// A law from a real closure u(I₁−3, I₂−3, J−1; x, y, s): captures anything, types inferred, and can be boxed.
 ///
-/// It always pays for all four variables (a, b, e, s); [`isotropic!`](crate::isotropic!) pays for what is asked.
+/// It always pays for all four variables (a, b, e, s), and the compiler is not bound to inline it into the engine's loop: it is many
+/// times slower than [`isotropic!`](crate::isotropic!), which pays for what is asked (`cargo run --release --example engine_speed`). `ln`,
+/// `powf` and their like need `use hyperrod::num_dual::DualNum;`, since the number is a concrete one.
 ///
 /// ```
 /// use hyperrod::material::isotropic;

@@ -10,27 +10,31 @@
 //!
 //! and in one of three ways: as an implementation of the trait; with the macro of the same name in closure syntax
 //! ([`isotropic!`](crate::isotropic!), [`local!`](crate::local!), [`sectional!`](crate::sectional!)), which expands to the
-//! trait; or as a real closure over one concrete dual number ([`isotropic`], [`local`], [`sectional`]), quickest to write and
-//! slower to run. All of them are a [`Material`], which is all that a section asks for.
+//! trait; or as a real closure over one concrete [jet](LocalJet) ([`isotropic`], [`local`], [`sectional`]), quickest to write
+//! and much slower to run. All of them are a [`Material`], which is all that a section asks for.
 //!
 //! The laws at hand, with the moduli at rest of a section that cannot contract:
 //!
-//! | law | G | E | worst error |
-//! |---|---|---|---|
-//! | [`MooneyRivlin`] with [`ReferencePressure`] | 2C₁+2C₂ | 2C₁+4C₂ | 6.9e-15 |
-//! | [`Polynomial`] with or without it | 2(C₁₀+C₀₁) | 2C₁₀+4C₀₁+8C₂₀+16C₁₁+32C₀₂+2D₁ | 1.0e-14 |
-//! | [`IsochoricPolynomial`], [`Yeoh`] | 2(C₁₀+C₀₁) | 2D₁+4G/3 | 9.1e-15 |
-//! | [`NeoHookean`], [`Gent`], [`Hencky`], [`SaintVenantKirchhoff`] | μ | λ+2μ | 7.6e-15, 5.7e-15, –, 6.1e-15 |
-//! | [`IsochoricNeoHookean`], [`Fung`], [`HolzapfelGasserOgden`] | μ | κ+4μ/3 | – |
-//! | [`ArrudaBoyce`] | above μ | κ+4G/3 | – |
-//! | [`Ogden`] | ½Σμα | λ+2G | – |
-//! | [`BlatzKo`] | μ | 2μ(1−ν)/(1−2ν) | – |
-//! | [`Fibres`] in tension, along the rod | – | 4k₁ | – |
+//! | law | G | E |
+//! |---|---|---|
+//! | [`MooneyRivlin`] with [`ReferencePressure`] | 2C₁+2C₂ | 2C₁+4C₂ |
+//! | [`Polynomial`] with or without it | 2(C₁₀+C₀₁) | 2C₁₀+4C₀₁+8C₂₀+16C₁₁+32C₀₂+2D₁ |
+//! | [`IsochoricPolynomial`], [`Yeoh`] | 2(C₁₀+C₀₁) | 2D₁+4G/3 |
+//! | [`NeoHookean`], [`Gent`], [`Hencky`], [`SaintVenantKirchhoff`] | μ | λ+2μ |
+//! | [`IsochoricNeoHookean`], [`Fung`], [`HolzapfelGasserOgden`] | μ | κ+4μ/3 |
+//! | [`ArrudaBoyce`] | above μ | κ+4G/3 |
+//! | [`Ogden`] | ½Σμα | λ+2G |
+//! | [`BlatzKo`] | μ | 2μ(1−ν)/(1−2ν) |
+//! | [`Fibres`] in tension, along the rod | – | 4k₁ |
 //!
-//! [`Sum`] and [`Scaled`] make laws of laws. The last column is the largest error of Ψ against 54-digit integrals over a circle, an
-//! annulus, a rectangle and an L, for strains from 1e-12 to 95 % compression, relative to ∫|∂u/∂Δξ| dA and with a quadrature that
-//! has converged; the tangent is within 6.5e-14 (`examples/material_table.rs`). A law without reference is held by closed forms
-//! and by the laws it turns into.
+//! [`LinearElastic`], written at section level, takes G and E as they are. [`Sum`] and [`Scaled`] make laws of laws.
+//!
+//! **Constants from a datasheet** describe a solid that is free to contract; a rigid section is not, and bends with the E of the table.
+//! With the bulk modulus of rubber (κ or λ near 1 GPa) a rod comes out a thousand times too stiff. For the E = 3G of an incompressible rubber,
+//! take λ = G, or κ = 5G/3.
+//!
+#![doc = include_str!("../../docs/material-table.md")]
+//!
 //!
 //! What lives here knows strains, points and weights; it knows no shape, no body and no rod.
 

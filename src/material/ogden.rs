@@ -1,4 +1,4 @@
-use super::constants::{positive, require_coefficient};
+use super::constants::{positive, require, require_coefficient};
 use super::kinematics::{Deformation, Point};
 use super::law::Local;
 use crate::error::Result;
@@ -14,13 +14,23 @@ use crate::scalar::Scalar;
 /// G = \tfrac12 \sum_p \mu_p \alpha_p, \qquad E_{\text{rigid}} = \lambda + 2G .
 /// ```
 ///
+/// The second constant is λ, **not the bulk modulus** K of a datasheet: λ = K − 2G/3. And a section that cannot contract bends with
+/// λ + 2G: with the bulk modulus of rubber, near 1 GPa, a rod is a thousand times too stiff. Take λ = G, which makes E_rigid the 3G of the
+/// incompressible rubber.
+///
 /// Defined for J > 0. One term with α = 2 is [`NeoHookean`](super::NeoHookean) with μ = μ₁.
 ///
 /// ```
 /// use hyperrod::material::Ogden;
 ///
 /// // Ogden's fit to Treloar's rubber: (mu in Pa, alpha)
-/// let rubber = Ogden::new(&[(0.63e6, 1.3), (0.0012e6, 5.0), (-0.01e6, -2.0)], 10e6)?;
+/// let terms = [(0.63e6, 1.3), (0.0012e6, 5.0), (-0.01e6, -2.0)];
+/// let shear_modulus = 0.5 * terms.iter().map(|(mu, alpha)| mu * alpha).sum::<f64>();
+/// let rubber = Ogden::new(&terms, shear_modulus)?; // E = 3 G on a rigid section
+/// assert_eq!(rubber.shear_modulus(), shear_modulus);
+///
+/// let refused = Ogden::new(&[], shear_modulus).unwrap_err().to_string();
+/// assert!(refused.contains("number of terms"), "{refused}");
 /// # Ok::<(), hyperrod::Error>(())
 /// ```
 ///
@@ -32,12 +42,13 @@ pub struct Ogden {
 }
 
 impl Ogden {
-    /// From the terms (μ_p in Pa, α_p) and λ, Pa.
+    /// From the terms (μ_p in Pa, α_p) and λ, Pa (see above for which λ to take).
     ///
     /// # Errors
     /// If there is no term, a number is not finite, an α_p is zero, or the shear modulus ½ Σ μ_p α_p or the bulk modulus λ + 2G/3
     /// is not positive.
     pub fn new(terms: &[(f64, f64)], lambda: f64) -> Result<Self> {
+        require(!terms.is_empty(), "number of terms of Ogden's law", 0.0, "at least 1")?;
         for (p, &(mu, alpha)) in terms.iter().enumerate() {
             require_coefficient(mu.is_finite(), || format!("mu_{}", p + 1), mu, "finite")?;
             let usable = alpha.is_finite() && alpha != 0.0;

@@ -29,7 +29,7 @@ trait Part: CrossSection + Geometry {}
 impl<C: CrossSection + Geometry> Part for C {}
 
 impl Composite {
-    /// Of a first part.
+    /// Of a first part; add the others with [`with`](Self::with).
     pub fn new(section: impl CrossSection + Geometry + 'static) -> Self {
         Self { parts: vec![(Box::new(section), 1.0)] }
     }

@@ -6,7 +6,7 @@ use num_dual::Dual64;
 ///
 /// ```
 /// use hyperrod::section::Circle;
-/// use num_dual::{Dual64, DualNum};
+/// use hyperrod::num_dual::{Dual64, DualNum};
 ///
 /// let bulge = Circle::new(|s: Dual64| (s * 12.0).sin() * 0.002 + 0.010);
 /// # let _ = bulge;

@@ -13,7 +13,7 @@ use crate::quadrature::{MAX_DEGREE, Rule};
 ///
 /// ```
 /// use hyperrod::section::{Rectangle, Shape};
-/// use num_dual::Dual64;
+/// use hyperrod::num_dual::Dual64;
 ///
 /// // a strip beside the axis that winds round it once every 0.2 m
 /// let strand = Rectangle::new(4e-3, 1e-3).shifted(5e-3, 0.0).rotated(|s: Dual64| s * (std::f64::consts::TAU / 0.2));
