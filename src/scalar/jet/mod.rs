@@ -159,3 +159,6 @@ impl<L: Lane, const N: usize, const M: usize> Neg for Jet<L, N, M> {
         Self { value: -self.value, gradient: self.gradient.map(|g| -g), hessian: self.hessian.map(|h| -h) }
     }
 }
+
+#[cfg(test)]
+mod tests;
