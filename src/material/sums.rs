@@ -68,9 +68,11 @@ impl<L: Lane> Sums<L> {
     /// Zero, with an energy that is NaN where a component of the strain is not finite: a law need not look at every one.
     #[inline(always)]
     pub(super) fn of(xi: &[L; 6]) -> Self {
-        let [a, b, c, d, e, f] = *xi;
-        let energy = ((a - a) + (b - b)) + ((c - c) + (d - d)) + ((e - e) + (f - f));
-        Self { energy, ..Self::zero() }
+        let mut sums = Self::zero();
+        for &component in xi {
+            sums.energy = component.mul_add(L::splat(0.0), sums.energy);
+        }
+        sums
     }
 
     /// Adds a block of a local law: w j u, w Bᵀ g, (w/j) Bᵀ h B and (w′ Bᵀ + w B′ᵀ) g + w Bᵀ g′.

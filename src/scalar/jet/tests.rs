@@ -1,6 +1,7 @@
 //! Every operation of a jet against num-dual's `Dual2SVec64<3>`, which takes other formulas, in value, gradient and Hessian.
 
 #![allow(clippy::unwrap_used)] // a test that cannot go on should panic
+#![allow(clippy::op_ref, clippy::nonminimal_bool)] // operators with references, and each comparison, are what is tested
 
 use nalgebra::{Const, Matrix3, RowVector3, U1};
 use num_dual::{Derivative, Dual2SVec64, DualNum, DualStruct};
