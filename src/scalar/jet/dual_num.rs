@@ -66,7 +66,7 @@ impl<L: Lane, const N: usize, const M: usize> Signed for Jet<L, N, M> {
     }
     fn abs_sub(&self, other: &Self) -> Self {
         let difference = *self - *other;
-        difference.times(difference.value.select_lt(L::splat(0.0), L::splat(0.0), L::splat(1.0)))
+        difference.times(L::splat(0.0).select_lt(difference.value, L::splat(1.0), L::splat(0.0)))
     }
     #[inline(always)]
     fn signum(&self) -> Self {

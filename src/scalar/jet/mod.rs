@@ -251,3 +251,6 @@ impl<L: Lane, const N: usize, const M: usize> Neg for Jet<L, N, M> {
         Self::constant(L::splat(-0.0)) - self // −0 − x = −x for every x, zero included
     }
 }
+
+#[cfg(test)]
+mod tests;
