@@ -55,6 +55,11 @@ const fn packed(n: usize, i: usize, j: usize) -> usize {
     i * n + j - i * (i + 1) / 2
 }
 
+/// Whether (i, j) is in the upper triangle, the diagonal included.
+const fn upper(i: usize, j: usize) -> bool {
+    i <= j
+}
+
 /// Whether bit `i` of a mask is set.
 #[inline(always)]
 const fn has(mask: u32, i: usize) -> bool {
@@ -93,7 +98,7 @@ impl<L: Lane, const N: usize, const M: usize> Jet<L, N, M> {
                 out.gradient[i] = self.gradient[i] * f1;
             }
             each!(j < N, {
-                if const { M > 0 && i <= j } {
+                if const { M > 0 && upper(i, j) } {
                     let k = const { packed(N, i, j) };
                     if has(self.first, i) && has(self.first, j) {
                         out.add_second(k, self.gradient[i] * self.gradient[j], f2);
@@ -123,7 +128,7 @@ impl<L: Lane, const N: usize, const M: usize> Jet<L, N, M> {
                 self.gradient[i] = self.gradient[i] * factor;
             }
             each!(j < N, {
-                if const { M > 0 && i <= j } {
+                if const { M > 0 && upper(i, j) } {
                     let k = const { packed(N, i, j) };
                     if has(self.second, k) {
                         self.hessian[k] = self.hessian[k] * factor;
@@ -161,7 +166,7 @@ impl<L: Lane, const N: usize, const M: usize> Add for Jet<L, N, M> {
                 self.gradient[i] = other.gradient[i];
             }
             each!(j < N, {
-                if const { M > 0 && i <= j } {
+                if const { M > 0 && upper(i, j) } {
                     let k = const { packed(N, i, j) };
                     if has(self.second & other.second, k) {
                         self.hessian[k] = self.hessian[k] + other.hessian[k];
@@ -189,7 +194,7 @@ impl<L: Lane, const N: usize, const M: usize> Sub for Jet<L, N, M> {
                 self.gradient[i] = -other.gradient[i];
             }
             each!(j < N, {
-                if const { M > 0 && i <= j } {
+                if const { M > 0 && upper(i, j) } {
                     let k = const { packed(N, i, j) };
                     if has(self.second & other.second, k) {
                         self.hessian[k] = self.hessian[k] - other.hessian[k];
@@ -221,7 +226,7 @@ impl<L: Lane, const N: usize, const M: usize> Mul for Jet<L, N, M> {
                 out.gradient[i] = b.gradient[i] * a.value;
             }
             each!(j < N, {
-                if const { M > 0 && i <= j } {
+                if const { M > 0 && upper(i, j) } {
                     let k = const { packed(N, i, j) };
                     if has(a.first, i) && has(b.first, j) {
                         out.add_second(k, a.gradient[i], b.gradient[j]);

@@ -35,6 +35,8 @@ fn pack<L: Lane>(numbers: &[Three]) -> Packed<L> {
         value: lanes(&|x| x.re),
         gradient: std::array::from_fn(|j| lanes(&|x| x.v1.unwrap_generic(U1, Const::<3>)[j])),
         hessian: UPPER.map(|(i, j)| lanes(&|x| x.v2.unwrap_generic(Const::<3>, Const::<3>)[(i, j)])),
+        first: 0b111,
+        second: 0b111_111,
     }
 }
 
