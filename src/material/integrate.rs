@@ -10,10 +10,11 @@ use super::kinematics::Point;
 use super::law::{Local, Sectional};
 use super::response::{Points, Reference, Request, Response, Station, check_strain};
 use super::sums::{Block, Sums};
+use super::walk::Walk;
 use crate::error::{Error, Result};
 use crate::lie::Strain;
 use crate::scalar::lane::{Kernel, dispatch};
-use crate::scalar::{Jet, Lane, Scalar, lanes_disagreed};
+use crate::scalar::{Jet, Lane, Scalar};
 
 /// The section and strain of one evaluation.
 #[derive(Clone, Copy)]
@@ -86,62 +87,6 @@ impl<M: Local + ?Sized, L: Lane, O: Level> Respond<L, O> for M {
     #[inline(always)]
     fn respond_at(&self, fibre: &Fibre<L>) -> FibreResponse<L> {
         self.respond::<L, O>(fibre)
-    }
-}
-
-/// Goes through the points block by block; once more, and lane by lane through the blocks whose lanes disagree, if any did.
-///
-/// It leaves the loops with a single place where the law is evaluated, which is what makes compilers inline it there, and without a call
-/// in the first pass, which would spill every register.
-struct Walk {
-    points: usize,
-    lanes: usize,
-    careful: bool,
-    block: usize,
-    lane: Option<usize>,
-}
-
-impl Walk {
-    #[inline(always)]
-    fn over<L: Lane>(points: usize) -> Self {
-        Self { points, lanes: L::LANES, careful: false, block: 0, lane: None }
-    }
-
-    /// The first point of the block to evaluate, and the one lane of it to use where it is taken apart; `None` at the end of the pass.
-    #[inline(always)]
-    fn place(&self) -> Option<(usize, Option<usize>)> {
-        if self.block < self.points { Some((self.block, self.lane)) } else { None }
-    }
-
-    /// Goes on; whether the block just evaluated counts. Lanes that disagree are all to be evaluated again, each on its own.
-    #[inline(always)]
-    fn advance(&mut self) -> bool {
-        if !self.careful {
-            self.block += self.lanes;
-            return true;
-        }
-        match self.lane {
-            None if lanes_disagreed() => {
-                self.lane = Some(0);
-                return false;
-            }
-            Some(lane) if lane + 1 < self.lanes.min(self.points - self.block) => self.lane = Some(lane + 1),
-            _ => {
-                self.lane = None;
-                self.block += self.lanes;
-            }
-        }
-        true
-    }
-
-    /// At the end of a pass: whether another, careful one is needed, because lanes disagreed somewhere.
-    #[inline(always)]
-    fn again(&mut self) -> bool {
-        if self.careful || !lanes_disagreed() {
-            return false;
-        }
-        *self = Self { careful: true, block: 0, lane: None, ..*self };
-        true
     }
 }
 

@@ -66,6 +66,7 @@ mod response;
 mod saint_venant_kirchhoff;
 mod stress_free;
 mod sums;
+mod walk;
 mod yeoh;
 
 #[doc(hidden)]
