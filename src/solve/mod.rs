@@ -3,6 +3,7 @@
 //! What lives here drives the elements of [`rod`](crate::rod): when to step, how far, when to stop, and what to tell the user. It
 //! prints nothing; give a solve an observer to watch it.
 
+mod assembly;
 mod cascade;
 mod chain;
 mod describe;
@@ -13,9 +14,12 @@ mod linear;
 mod mesh;
 mod newton;
 mod report;
+mod rigid;
+mod scale;
 mod solution;
 mod statics;
 mod sweep;
+mod unknowns;
 mod workspace;
 
 pub use failure::{Failure, Reason};
