@@ -5,9 +5,11 @@
 //!
 //! What lives here knows sections, one after the other along s; it knows no pose, no load and no boundary condition.
 
+mod area;
 mod mass;
 mod reference;
 
+pub use area::HasArea;
 pub use mass::{Density, HasMass, LineDensity, LineMass, MassModel, Massless};
 pub use reference::ReferenceShape;
 
@@ -136,6 +138,11 @@ pub trait Elastic: Send + Sync {
     /// # Errors
     /// As [`CrossSection::respond`].
     fn respond(&self, s: f64, strain: &Strain, request: Request) -> Result<Response>;
+
+    /// Arc lengths at which the response is not smooth in s; see [`CrossSection::breakpoints`].
+    fn breakpoints(&self) -> Vec<f64> {
+        Vec::new()
+    }
 }
 
 impl<C: CrossSection, M: Send + Sync> Elastic for Body<C, M> {
@@ -150,5 +157,9 @@ impl<C: CrossSection, M: Send + Sync> Elastic for Body<C, M> {
     fn respond(&self, s: f64, strain: &Strain, request: Request) -> Result<Response> {
         let station = Station { s, reference: self.reference.checked(s)? };
         self.section.respond(&station, strain, request)
+    }
+
+    fn breakpoints(&self) -> Vec<f64> {
+        self.section.breakpoints()
     }
 }
