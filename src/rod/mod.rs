@@ -9,6 +9,7 @@ pub(crate) mod collocation;
 pub(crate) mod condense;
 pub(crate) mod element;
 pub(crate) mod magnus;
+mod planar;
 mod scene;
 mod stages;
 
