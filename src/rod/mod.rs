@@ -10,6 +10,7 @@ pub(crate) mod condense;
 pub(crate) mod element;
 pub(crate) mod joint;
 pub(crate) mod magnus;
+mod planar;
 mod scene;
 mod stages;
 pub(crate) mod support;
