@@ -1,0 +1,322 @@
+//! Sections that deform: contraction, ovalisation and warping by a small Ritz basis, condensed to the strains of the rod.
+//!
+//! What lives here minimises the energy of one section over displacements of its points; all a rod sees of it is a
+//! [`CrossSection`].
+
+mod assembly;
+mod equilibrium;
+mod modes;
+mod rate;
+mod space;
+mod warping;
+
+use std::borrow::Cow;
+
+use nalgebra::{DMatrix, DVector};
+
+use self::assembly::{Displaced, Frame};
+use self::equilibrium::{Equilibrium, Problem};
+use self::modes::Modes;
+use super::CrossSection;
+use super::geometry::{AreaMoments, Geometry};
+use super::shape::Shape;
+use crate::error::{Error, Result};
+use crate::lie::{Strain, Wrench};
+use crate::material::{GradientState, Local, Request, Response, Station, check_strain};
+
+pub use warping::Warping;
+
+/// A shape filled with one material whose points are free to move: the section contracts, bends the other way, ovalises and warps.
+///
+/// The points of the section take the displacement w(x, y), a combination of the functions of its [`Warping`] without rigid
+/// motions, that makes the energy smallest:
+///
+/// ```math
+/// F = [e_1 + \partial_x w,\; e_2 + \partial_y w,\; \nu + \omega \times (r + w)]\,[e_1,\; e_2,\; \gamma^*]^{-1}, \qquad
+/// U(\Delta\xi) = \min_q \int u(F)\,\gamma^*_3\,dA, \qquad \gamma^* = \nu^* + \omega^* \times r,
+/// ```
+/// ```math
+/// \int w = 0, \quad \int x\,w_3 = \int y\,w_3 = 0, \quad \int (x w_2 - y w_1) = 0, \qquad
+/// \Psi = U_\xi, \quad \frac{\partial\Psi}{\partial\Delta\xi} = U_{\xi\xi} - U_{\xi q} U_{qq}^{-1} U_{q\xi} .
+/// ```
+///
+/// So the constants of a law are those of the material: EA = E·A, EI = E·I, torsion constants, shear factors, Poynting's and
+/// Brazier's effects come out, and none is typed in. The law must be one of the deformation ([`Local`] or
+/// [`Isotropic`](crate::material::Isotropic)). Answers depend on the strain alone, never on what was asked before.
+///
+/// ```
+/// use hyperrod::Strain;
+/// use hyperrod::material::{NeoHookean, Station};
+/// use hyperrod::section::{CrossSection, Rectangle, Relaxed, Section};
+///
+/// # fn main() -> hyperrod::Result<()> {
+/// let rubber = NeoHookean::from_young(1e6, 0.45)?; // E in Pa, Poisson's ratio: the datasheet's
+/// let rigid = Section::new(Rectangle::new(0.01, 0.01), rubber)?;
+/// let free = Relaxed::new(Rectangle::new(0.01, 0.01), rubber)?; // one word changed
+///
+/// let stiffness = |section: &dyn CrossSection| section.tangent(&Station::straight(0.0), &Strain::zero());
+/// assert!((stiffness(&free)?[(5, 5)] - 1e6 * 1e-4).abs() < 1e-8); // E A
+/// assert!(stiffness(&rigid)?[(5, 5)] > 3.7 * 1e6 * 1e-4); // (λ + 2μ) A
+/// # Ok(()) }
+/// ```
+///
+/// # Limits
+/// Polynomials serve thin-walled and re-entrant shapes poorly (10⁻² to 10⁻¹ in the torsion constant even at (7, 7)).
+///
+/// Source: method of the relaxed cross-section as in Berdichevsky (2009), *Variational Principles of Continuum Mechanics*, ch. 15;
+/// Kumar and Mukherjee (2011), Int. J. Solids Struct. 48, 1173, for the helical symmetry of the cell problem.
+#[derive(Clone, Debug)]
+pub struct Relaxed<S, M> {
+    shape: S,
+    law: M,
+    warping: Warping,
+    degree: Option<usize>,
+    fixed: Option<Modes>,
+    /// ∂q/∂Δξ about a straight reference at rest: where the search begins.
+    predictor: Option<DMatrix<f64>>,
+}
+
+/// A section at a strain with the displacement that relaxes it: a start for the next strain.
+#[derive(Clone, Debug)]
+pub struct Relaxation {
+    strain: Strain,
+    amplitudes: DVector<f64>,
+    sensitivity: DMatrix<f64>,
+    iterations: usize,
+}
+
+impl Relaxation {
+    /// How many Newton iterations it took.
+    pub fn iterations(&self) -> usize {
+        self.iterations
+    }
+
+    /// The strain it belongs to.
+    pub fn strain(&self) -> &Strain {
+        &self.strain
+    }
+
+    /// The amplitudes of the modes.
+    pub fn amplitudes(&self) -> &[f64] {
+        self.amplitudes.as_slice()
+    }
+
+    /// q + (∂q/∂Δξ) δΔξ.
+    fn predict(&self, strain: &Strain) -> DVector<f64> {
+        let change = DVector::from_column_slice(&(*strain - self.strain).to_array());
+        &self.amplitudes + &self.sensitivity * change
+    }
+}
+
+impl<S: Shape, M: Local> Relaxed<S, M> {
+    /// A section of the given shape and material with the functions of [`Warping::TORSION`].
+    ///
+    /// # Errors
+    /// If the shape is constant and a size is not positive and finite, or the shape has too few points for the functions.
+    pub fn new(shape: S, law: M) -> Result<Self> {
+        let (warping, degree, fixed, predictor) = (Warping::TORSION, None, None, None);
+        Self { shape, law, warping, degree, fixed, predictor }.prepared()
+    }
+
+    /// The same with the functions of another rung of the ladder, or any degrees.
+    ///
+    /// ```
+    /// use hyperrod::material::NeoHookean;
+    /// use hyperrod::section::{Circle, Relaxed, Warping};
+    /// # fn main() -> hyperrod::Result<()> {
+    /// let arm = Relaxed::new(Circle::new(0.01), NeoHookean::from_young(1e6, 0.45)?)?.with_warping(Warping::BENDING)?;
+    /// assert_eq!(arm.mode_count(), 27);
+    /// # Ok(()) }
+    /// ```
+    ///
+    /// # Errors
+    /// If a degree is beyond [`Warping::MAX_DEGREE`], or the quadrature too poor for it.
+    pub fn with_warping(mut self, warping: Warping) -> Result<Self> {
+        self.warping = warping;
+        self.prepared()
+    }
+
+    /// The same with a quadrature exact for polynomials of this degree in (x, y).
+    ///
+    /// Without it the degree is 2 max(p, r) + 6: exact for the second derivatives at rest, with room for finite strain.
+    ///
+    /// # Errors
+    /// If the shape has no rule of that degree, or it is below 2 (max(p, r) − 1), which leaves displacements without an energy.
+    pub fn with_degree(mut self, degree: usize) -> Result<Self> {
+        self.degree = Some(degree);
+        self.prepared()
+    }
+
+    fn prepared(mut self) -> Result<Self> {
+        let largest = self.warping.degree();
+        if largest > Warping::MAX_DEGREE {
+            let quantity = "degree of a section's displacement";
+            return Err(Error::Invalid { quantity, value: largest as f64, requirement: "at most 12" });
+        }
+        let least = (2 * largest.max(1) - 2).max(2);
+        let degree = self.degree.unwrap_or((2 * largest + 6).min(self.shape.max_degree()));
+        if degree < least {
+            let quantity = "degree of the quadrature of a relaxed section";
+            let requirement = "at least 2 (d - 1) for displacements of degree d: a poorer one leaves some without an energy";
+            return Err(Error::Invalid { quantity, value: degree as f64, requirement });
+        }
+        self.fixed = None;
+        self.predictor = None;
+        if self.shape.is_constant() {
+            let modes = self.modes_at(0.0)?;
+            let at = Station::straight(0.0);
+            let problem = Problem { modes: &modes, law: &self.law, at: &at };
+            let rest = problem.solve(&Strain::zero(), &DVector::zeros(modes.len()));
+            // a law that has no rest, or none here, starts from no displacement
+            self.predictor = rest.ok().map(|rest| rest.sensitivity());
+            self.fixed = Some(modes);
+        } else {
+            self.shape.rule(degree)?;
+        }
+        Ok(self)
+    }
+
+    fn quadrature_degree(&self) -> usize {
+        self.degree.unwrap_or((2 * self.warping.degree() + 6).min(self.shape.max_degree()))
+    }
+
+    fn modes_at(&self, s: f64) -> Result<Modes> {
+        let rule = self.shape.rule(self.quadrature_degree())?;
+        Modes::new(self.shape.place(&rule, s)?, self.shape.is_ring(), self.warping)
+    }
+
+    fn modes(&self, s: f64) -> Result<Cow<'_, Modes>> {
+        match &self.fixed {
+            Some(modes) => Ok(Cow::Borrowed(modes)),
+            None => Ok(Cow::Owned(self.modes_at(s)?)),
+        }
+    }
+
+    /// How many modes the section deforms in.
+    pub fn mode_count(&self) -> usize {
+        self.fixed.as_ref().map_or(0, Modes::len)
+    }
+
+    /// How many quadrature points the section has; 0 where the shape varies along s.
+    pub fn point_count(&self) -> usize {
+        self.fixed.as_ref().map_or(0, |modes| modes.points.len())
+    }
+
+    /// How the section deforms.
+    pub fn warping(&self) -> Warping {
+        self.warping
+    }
+
+    /// The material.
+    pub fn material(&self) -> &M {
+        &self.law
+    }
+
+    /// The shape.
+    pub fn shape(&self) -> &S {
+        &self.shape
+    }
+
+    /// As [`CrossSection::respond`], with a start, and with what a start for the next strain needs.
+    ///
+    /// The answer agrees with that of [`CrossSection::respond`] to rounding, in two or three iterations where strains follow one
+    /// another.
+    ///
+    /// # Errors
+    /// As [`CrossSection::respond`].
+    pub fn respond_from(
+        &self,
+        start: Option<&Relaxation>,
+        at: &Station,
+        strain: &Strain,
+        request: Request,
+    ) -> Result<(Response, Relaxation)> {
+        check_strain(strain, at.s)?;
+        let modes = self.modes(at.s)?;
+        let problem = Problem { modes: &modes, law: &self.law, at };
+        let equilibrium = problem.solve(strain, &self.start(&modes, start, strain))?;
+        let response = self.condense(&problem, strain, &equilibrium, request)?;
+        let relaxation = Relaxation {
+            strain: *strain,
+            sensitivity: equilibrium.sensitivity(),
+            iterations: equilibrium.iterations,
+            amplitudes: equilibrium.q,
+        };
+        Ok((response, relaxation))
+    }
+
+    fn start(&self, modes: &Modes, start: Option<&Relaxation>, strain: &Strain) -> DVector<f64> {
+        match (start, &self.predictor) {
+            (Some(start), _) if start.amplitudes.len() == modes.len() => start.predict(strain),
+            (_, Some(predictor)) => predictor * DVector::from_column_slice(&strain.to_array()),
+            _ => DVector::zeros(modes.len()),
+        }
+    }
+
+    /// Energy, wrench and tangent of the section in equilibrium, the last correction accounted for to second order.
+    fn condense(
+        &self,
+        problem: &Problem<'_, M>,
+        strain: &Strain,
+        equilibrium: &Equilibrium,
+        request: Request,
+    ) -> Result<Response> {
+        let (slopes, step) = (&equilibrium.slopes, &equilibrium.correction);
+        let mut response = Response::zero();
+        response.energy = slopes.energy;
+        let mut psi = slopes.strain;
+        let mut tangent = equilibrium.curvatures.strain;
+        if let Some(factor) = &equilibrium.factor {
+            // with δ = −U_qq⁻¹ U_q: U − ½ U_q·U_qq⁻¹ U_q = U − ½ |Lᵀ δ|²
+            let l = factor.l_dirty();
+            let lower = l.lower_triangle();
+            response.energy -= 0.5 * lower.tr_mul(step).norm_squared();
+            for (k, change) in equilibrium.mixed.tr_mul(step).iter().enumerate() {
+                psi[k] += change;
+            }
+            let mut half = equilibrium.mixed.clone();
+            lower.solve_lower_triangular_mut(&mut half);
+            for i in 0..6 {
+                for k in i..6 {
+                    tangent[(i, k)] -= half.column(i).dot(&half.column(k));
+                }
+            }
+        }
+        for i in 0..6 {
+            for k in 0..i {
+                tangent[(i, k)] = tangent[(k, i)];
+            }
+        }
+        if request >= Request::Wrench {
+            response.wrench = Wrench::from_vector(&psi);
+        }
+        if request >= Request::Tangent {
+            response.tangent = tangent;
+        }
+        if request >= Request::Rate {
+            let frame = Frame::new(problem.modes, problem.at, strain);
+            let coefficients = problem.modes.expand(&equilibrium.evaluated_at);
+            let displaced = Displaced::new(problem.modes, &frame, &coefficients);
+            let mut state = GradientState::default();
+            problem.evaluate(&displaced, Request::Rate, &mut state)?;
+            let rate = rate::wrench_rate(&displaced, &state, equilibrium, &coefficients, problem.at);
+            response.wrench_rate = Wrench::from_vector(&rate);
+        }
+        Ok(response)
+    }
+}
+
+impl<S: Shape, M: Local> CrossSection for Relaxed<S, M> {
+    fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
+        Ok(self.respond_from(None, at, strain, request)?.0)
+    }
+}
+
+impl<S: Shape, M: Local> Geometry for Relaxed<S, M> {
+    fn moments(&self, s: f64) -> Result<AreaMoments> {
+        match &self.fixed {
+            Some(modes) => Ok(AreaMoments::of(&modes.points)),
+            None => Ok(AreaMoments::of(&self.shape.place(&self.shape.rule(2)?, s)?)),
+        }
+    }
+}
