@@ -109,6 +109,9 @@ impl Relaxation {
 }
 
 impl<S: Shape, M: Local> Relaxed<S, M> {
+    /// The smallest degree of the quadrature, unless another is asked for or the shape has no rule of it: as for a rigid section.
+    const LEAST_DEGREE: usize = 12;
+
     /// A section of the given shape and material with the functions of [`Warping::TORSION`].
     ///
     /// # Errors
@@ -138,7 +141,8 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
 
     /// The same with a quadrature exact for polynomials of this degree in (x, y).
     ///
-    /// Without it the degree is 2 max(p, r) + 6: exact for the second derivatives at rest, with room for finite strain.
+    /// Without it the degree is 2 max(p, r) + 2 (twice that on a tube) and at least 12: exact for the second derivatives at rest, and at finite strain with an
+    /// error below that of the displacements.
     ///
     /// # Errors
     /// If the shape has no rule of that degree, or it is below 2 (max(p, r) − 1), which leaves displacements without an energy.
@@ -154,7 +158,7 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
             return Err(Error::Invalid { quantity, value: largest as f64, requirement: "at most 12" });
         }
         let least = (2 * largest.max(1) - 2).max(2);
-        let degree = self.degree.unwrap_or((2 * largest + 6).min(self.shape.max_degree()));
+        let degree = self.quadrature_degree();
         if degree < least {
             let quantity = "degree of the quadrature of a relaxed section";
             let requirement = "at least 2 (d - 1) for displacements of degree d: a poorer one leaves some without an energy";
@@ -177,7 +181,10 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
     }
 
     fn quadrature_degree(&self) -> usize {
-        self.degree.unwrap_or((2 * self.warping.degree() + 6).min(self.shape.max_degree()))
+        // a rule of degree d on a tube has d/4 + 1 radii, and functions of degree k in the radius want k + 1 and some
+        let factor = if self.shape.is_ring() { 4 } else { 2 };
+        let degree = (factor * (self.warping.degree() + 1)).max(Self::LEAST_DEGREE);
+        self.degree.unwrap_or(degree.min(self.shape.max_degree()))
     }
 
     fn modes_at(&self, s: f64) -> Result<Modes> {

@@ -12,10 +12,11 @@ use std::fmt;
 /// | [`RIGID`](Self::RIGID) | none | 0 | nothing lateral: EA = (λ+2μ)A, GJ = μ(I_x+I_y) |
 /// | [`CONTRACTION`](Self::CONTRACTION) | (1, –) | 3 | stretch at any strain, EA = E·A, torsion of a circle |
 /// | [`ANTICLASTIC`](Self::ANTICLASTIC) | (2, –) | 9 | EI = E·I at rest |
-/// | [`BENDING`](Self::BENDING) | (4, –) | 27 | bending at finite strain |
+/// | [`BENDING`](Self::BENDING) | (4, –) | 27 | bending at finite strain, 20 % at the surface |
 /// | [`SHEAR`](Self::SHEAR) | (4, 3) | 34 | shear factors at rest and at finite strain; torsion of an ellipse |
-/// | [`TORSION`](Self::TORSION) | (5, 4) | 51 | torsion of squares and rectangles, 10⁻³ at finite twist |
-/// | [`FULL`](Self::FULL) | (7, 6) | 95 | the same to 10⁻⁴ |
+/// | [`TORSION`](Self::TORSION) | (5, 4) | 51 | torsion of squares and rectangles; the constant of a square to 1.2·10⁻³ |
+/// | [`LARGE`](Self::LARGE) | (7, 6) | 94 | the same to 6·10⁻⁴; 50 % at the surface in bending and twist |
+/// | [`FULL`](Self::FULL) | (9, 8) | 149 | the same with more digits |
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Warping {
     /// Degree p of the displacement in the plane of the section; 0 for none.
@@ -37,22 +38,30 @@ impl Warping {
     pub const SHEAR: Self = Self { in_plane: 4, axial: 3 };
     /// Torsion of sections with corners; the default.
     pub const TORSION: Self = Self { in_plane: 5, axial: 4 };
-    /// All there is.
-    pub const FULL: Self = Self { in_plane: 7, axial: 6 };
+    /// Large bending and twist.
+    pub const LARGE: Self = Self { in_plane: 7, axial: 6 };
+    /// All there is on the ladder.
+    pub const FULL: Self = Self { in_plane: 9, axial: 8 };
 
     /// The rungs from the simplest to the fullest.
-    pub const LADDER: [Self; 7] = [
+    pub const LADDER: [Self; 8] = [
         Self::RIGID,
         Self::CONTRACTION,
         Self::ANTICLASTIC,
         Self::BENDING,
         Self::SHEAR,
         Self::TORSION,
+        Self::LARGE,
         Self::FULL,
     ];
 
     /// The largest degree that can be asked for.
     pub const MAX_DEGREE: usize = 12;
+
+    /// The degrees in balance for a warping of degree r: (r + 1, r).
+    pub const fn balanced(axial: usize) -> Self {
+        Self { in_plane: axial + 1, axial }
+    }
 
     /// The larger of the two degrees.
     pub(super) fn degree(&self) -> usize {
@@ -69,6 +78,7 @@ impl fmt::Display for Warping {
             Self::BENDING => "bending ",
             Self::SHEAR => "shear ",
             Self::TORSION => "torsion ",
+            Self::LARGE => "large ",
             Self::FULL => "full ",
             _ => "",
         };
