@@ -1,83 +1,98 @@
-//! Functions of the principal stretches of any deformation, without eigenvalues: smooth where stretches coalesce.
+//! Functions of the principal stretches of any deformation, smooth where stretches coalesce.
 //!
-//! C = FᵀF is taken to the identity by square roots, 2⁻ᵏ ln C follows from a series, and no root is taken of anything that vanishes at rest.
-//! Every step is arithmetic, so that dual numbers go through it.
+//! tr g(C) of C = FᵀF = C₀ + δ with its real part C₀ = Q diag(xᵢ) Qᵀ, and δ nilpotent in a dual number, is to second order
+//!
+//! Σ g(xᵢ) + Σ g′(xᵢ) δᵢᵢ + ½ Σ g′[xᵢ, xⱼ] δᵢⱼ δⱼᵢ in the basis Q,
+//!
+//! where the divided difference g′[x, y] has a limit as x → y, and is computed without one.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, SymmetricEigen};
 
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, exp_m1_minus_x};
 
-/// Square roots taken: C^(1/16) is within 5 % of the identity for stretches up to 1.5 and within 20 % up to 4.
-const ROOTS: usize = 4;
+/// A function g of a squared stretch x = 1 + e, and what its second-order expansion needs.
+trait Spectral {
+    fn value(&self, e: f64) -> f64;
+    /// g′(x).
+    fn slope(&self, e: f64) -> f64;
+    /// (g′(x) − g′(y)) / (x − y).
+    fn divided(&self, e: f64, f: f64) -> f64;
+}
 
-/// Terms of artanh and exp series: a ratio of 0.1 (stretches up to 4) leaves 0.01¹⁰.
-const TERMS: usize = 12;
+/// x^β − 1 − β ln x.
+struct PowerExcess(f64);
 
-/// Newton steps of a square root, quadratic from a start that is off by a factor 4 at most for stretches up to 4.
-const NEWTON: usize = 8;
+/// (½ ln x)².
+struct LogSquared;
+
+/// (ln x − ln y)/(x − y).
+fn mean_of_inverse(e: f64, f: f64) -> f64 {
+    let t = (e - f) / (1.0 + f);
+    if t == 0.0 { 1.0 / (1.0 + f) } else { t.ln_1p() / (e - f) }
+}
+
+impl Spectral for PowerExcess {
+    fn value(&self, e: f64) -> f64 {
+        exp_m1_minus_x(self.0 * e.ln_1p())
+    }
+
+    fn slope(&self, e: f64) -> f64 {
+        self.0 * (self.0 * e.ln_1p()).exp_m1() / (1.0 + e)
+    }
+
+    fn divided(&self, e: f64, f: f64) -> f64 {
+        // of β(x^β − 1)/x: β (y (x^β − y^β)/(x − y) − (y^β − 1)) / (x y)
+        let (x, y, beta) = (1.0 + e, 1.0 + f, self.0);
+        let (power, growth) = (y.powf(beta), beta * ((e - f) / y).ln_1p());
+        let difference = if e == f { beta * power / y } else { power * growth.exp_m1() / (e - f) };
+        beta * (y * difference - (beta * f.ln_1p()).exp_m1()) / (x * y)
+    }
+}
+
+impl Spectral for LogSquared {
+    fn value(&self, e: f64) -> f64 {
+        0.25 * e.ln_1p().powi(2)
+    }
+
+    fn slope(&self, e: f64) -> f64 {
+        0.5 * e.ln_1p() / (1.0 + e)
+    }
+
+    fn divided(&self, e: f64, f: f64) -> f64 {
+        let (x, y) = (1.0 + e, 1.0 + f);
+        0.5 * (y * mean_of_inverse(e, f) - f.ln_1p()) / (x * y)
+    }
+}
 
 /// Σ λᵢ^α − 3 − α ln J.
 pub(super) fn stretch_powers_excess<D: Scalar>(h: &Matrix3<D>, alpha: f64) -> D {
-    // eˣ − 1 − x of the matrix α ln U, whose trace is α ln J: squarings of a small one keep the digits,
-    // with e^{2x} − 1 − 2x = (eˣ − 1)² + 2(eˣ − 1 − x)
-    let log = log_stretch(h) * D::from(alpha / (1 << ROOTS) as f64);
-    let identity = Matrix3::<D>::identity();
-    let mut sum = identity;
-    for n in (3..TERMS + 3).rev() {
-        sum = log * sum * D::from(1.0 / n as f64) + identity;
-    }
-    let mut excess = log * log * sum * D::from(0.5);
-    let mut twice = log;
-    for _ in 0..ROOTS {
-        let grown = excess + twice;
-        excess = grown * grown + excess * D::from(2.0);
-        twice *= D::from(2.0);
-    }
-    excess.trace()
+    trace(h, &PowerExcess(0.5 * alpha))
 }
 
 /// Σ (ln λᵢ)².
 pub(super) fn log_strain_squared<D: Scalar>(h: &Matrix3<D>) -> D {
-    let log = log_stretch(h);
-    (log * log).trace()
+    trace(h, &LogSquared)
 }
 
-/// ln U = ½ ln C.
-fn log_stretch<D: Scalar>(h: &Matrix3<D>) -> Matrix3<D> {
-    let identity = Matrix3::<D>::identity();
-    let mut excess = h + h.transpose() + h.transpose() * h;
-    for _ in 0..ROOTS {
-        excess = root_excess(&excess);
+/// Σ g(λᵢ²), with first and second derivatives; a number that carries third ones gets NaN, not a wrong answer.
+fn trace<D: Scalar>(h: &Matrix3<D>, g: &impl Spectral) -> D {
+    if D::NDERIV > 2 {
+        return D::from(f64::NAN);
     }
-    // ln A = 2 artanh((A − I)(A + I)⁻¹)
-    let ratio = excess * inverse(&(excess + identity * D::from(2.0)));
-    let square = ratio * ratio;
-    let mut sum = Matrix3::<D>::zeros();
-    for n in (0..TERMS).rev() {
-        sum = square * sum + identity * D::from(1.0 / (2 * n + 1) as f64);
+    let strain = h + h.transpose() + h.transpose() * h;
+    let real = strain.map(|v| v.re());
+    if real.iter().any(|v| !v.is_finite()) {
+        return D::from(f64::NAN);
     }
-    ratio * sum * D::from((1 << ROOTS) as f64)
-}
-
-/// √(I + E) − I, by Newton's method for X² + 2X = E: X ← X + ½(I + X)⁻¹(E − 2X − X²), which commutes with E throughout.
-fn root_excess<D: Scalar>(e: &Matrix3<D>) -> Matrix3<D> {
-    let identity = Matrix3::<D>::identity();
-    let half = D::from(0.5);
-    let mut x = e * half * inverse(&(identity + e * D::from(0.25)));
-    for _ in 0..NEWTON {
-        let residual = e - x * D::from(2.0) - x * x;
-        x += inverse(&(identity + x)) * residual * half;
+    let eigen = SymmetricEigen::new(real);
+    let (x, basis) = (eigen.eigenvalues, eigen.eigenvectors.map(D::from));
+    let change = basis.transpose() * (strain - real.map(D::from)) * basis;
+    let mut sum = D::from((0..3).map(|i| g.value(x[i])).sum::<f64>());
+    for i in 0..3 {
+        sum += change[(i, i)] * g.slope(x[i]);
+        for k in 0..3 {
+            sum += change[(i, k)] * change[(k, i)] * (0.5 * g.divided(x[i], x[k]));
+        }
     }
-    x
-}
-
-/// The inverse by cofactors.
-fn inverse<D: Scalar>(m: &Matrix3<D>) -> Matrix3<D> {
-    let minor = |i: usize, k: usize| {
-        let ([a, b], [c, d]) = ([(i + 1) % 3, (i + 2) % 3], [(k + 1) % 3, (k + 2) % 3]);
-        m[(a, c)] * m[(b, d)] - m[(a, d)] * m[(b, c)]
-    };
-    let cofactor = Matrix3::from_fn(minor);
-    let det = m[(0, 0)] * cofactor[(0, 0)] + m[(0, 1)] * cofactor[(0, 1)] + m[(0, 2)] * cofactor[(0, 2)];
-    cofactor.transpose() * (D::one() / det)
+    sum
 }

@@ -1,9 +1,11 @@
 //! The displacement that makes the energy of a section smallest at a given strain, by Newton's method.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::assembly::{Curvatures, Displaced, Frame, Slopes};
 use super::modes::Modes;
+use super::pressure;
+use super::system::{System, augmented};
 use crate::error::{Error, Result};
 use crate::lie::Strain;
 use crate::material::{GradientState, Local, Request, Station};
@@ -24,15 +26,17 @@ const SMALLEST_STEP: f64 = 1.0 / 1024.0;
 
 /// A section in equilibrium at a strain.
 pub(super) struct Equilibrium {
-    /// The modes' amplitudes.
+    /// The modes' amplitudes, and the pressures if there are any.
     pub(super) q: DVector<f64>,
     /// The last correction, already part of `q`.
     pub(super) correction: DVector<f64>,
+    /// What the last correction does to the energy, ½ U_q·δq.
+    pub(super) lowered: f64,
     pub(super) slopes: Slopes,
     pub(super) curvatures: Curvatures,
-    /// Of U_qq.
-    pub(super) factor: Option<Cholesky<f64, Dyn>>,
-    /// Modes × strain: U_qξ.
+    /// Of U_qq, or with pressures that of the Lagrangian; `None` without modes.
+    pub(super) system: Option<System>,
+    /// Unknowns × strain: U_qξ.
     pub(super) mixed: DMatrix<f64>,
     pub(super) iterations: usize,
     /// The amplitudes that slopes and curvatures belong to.
@@ -42,10 +46,36 @@ pub(super) struct Equilibrium {
 impl Equilibrium {
     /// ∂q/∂Δξ = −U_qq⁻¹ U_qξ.
     pub(super) fn sensitivity(&self) -> DMatrix<f64> {
-        match &self.factor {
-            Some(factor) => -factor.solve(&self.mixed),
+        match &self.system {
+            Some(system) => -system.solve(&self.mixed),
             None => self.mixed.clone(),
         }
+    }
+}
+
+/// All derivatives at one state of the search.
+struct Derivatives {
+    slopes: Slopes,
+    curvatures: Curvatures,
+    gradient: DVector<f64>,
+    hessian: DMatrix<f64>,
+    mixed: DMatrix<f64>,
+    /// ∂(conditions on the volume)/∂(amplitudes).
+    volume: Option<DMatrix<f64>>,
+}
+
+impl Derivatives {
+    fn into_equilibrium(
+        self,
+        evaluated_at: DVector<f64>,
+        correction: DVector<f64>,
+        system: Option<System>,
+        iterations: usize,
+    ) -> Equilibrium {
+        let Self { slopes, curvatures, gradient, mixed, .. } = self;
+        let q = &evaluated_at + &correction;
+        let lowered = 0.5 * gradient.dot(&correction);
+        Equilibrium { q, correction, lowered, slopes, curvatures, system, mixed, iterations, evaluated_at }
     }
 }
 
@@ -54,6 +84,8 @@ pub(super) struct Problem<'a, M> {
     pub(super) modes: &'a Modes,
     pub(super) law: &'a M,
     pub(super) at: &'a Station,
+    /// How many pressures keep the volume; 0 for a compressible law.
+    pub(super) pressures: usize,
 }
 
 /// Where one strain's search ended, if not in an equilibrium.
@@ -77,8 +109,13 @@ impl<M: Local> Problem<'_, M> {
         }
     }
 
+    /// Amplitudes and pressures.
+    pub(super) fn unknowns(&self) -> usize {
+        self.modes.len() + self.pressures
+    }
+
     fn along(&self, strain: &Strain) -> Result<Equilibrium> {
-        let rest = DVector::zeros(self.modes.len());
+        let rest = DVector::zeros(self.unknowns());
         let mut state = self.newton(&Strain::zero(), &rest).map_err(Miss::error)?;
         let whole = DVector::from_column_slice(&strain.to_array());
         let (mut reached, mut step) = (0.0_f64, 0.5_f64);
@@ -111,81 +148,94 @@ impl<M: Local> Problem<'_, M> {
     fn newton(&self, strain: &Strain, start: &DVector<f64>) -> Result<Equilibrium, Miss> {
         let frame = Frame::new(self.modes, self.at, strain);
         let mut state = GradientState::default();
-        let mut q = start.clone();
-        let full = self.modes.expand(&q);
-        let mut displaced = Displaced::new(self.modes, &frame, &full);
-        self.evaluate(&displaced, Request::Tangent, &mut state).map_err(Miss::Step)?;
-        let mut correction = f64::INFINITY;
+        let (mut q, mut displaced) = self.begin(&frame, start, &mut state).map_err(Miss::Step)?;
+        let mut step = DVector::from_element(q.len(), f64::INFINITY);
         for iteration in 0..ITERATIONS {
-            let slopes = displaced.slopes(&state);
-            let curvatures = displaced.curvatures(&state);
-            let gradient = self.column(&slopes.coefficients);
-            let hessian = self.square(&curvatures.coefficients);
-            let mixed = self.modes.reduce(&curvatures.mixed);
+            let derivatives = self.derivatives(&displaced, &q, &state);
             if q.is_empty() {
-                let (correction, evaluated_at) = (q.clone(), q.clone());
-                let factor = None;
-                return Ok(Equilibrium {
-                    q,
-                    correction,
-                    slopes,
-                    curvatures,
-                    factor,
-                    mixed,
-                    iterations: 0,
-                    evaluated_at,
-                });
+                return Ok(derivatives.into_equilibrium(q.clone(), q, None, 0));
             }
-            let (factor, shifted) = factorise(&hessian).ok_or_else(|| {
-                Miss::Step(Error::Singular { matrix: "Hessian of the section's displacement", s: self.at.s })
-            })?;
-            let step = -factor.solve(&gradient);
-            let size = q.norm() + self.size(strain);
-            correction = step.norm();
-            if correction <= LAST * size {
-                if shifted {
-                    return Err(Miss::Unstable(self.unstable(&hessian)));
+            let singular = Error::Singular { matrix: "Hessian of the section's displacement", s: self.at.s };
+            let system = System::new(&derivatives.hessian, derivatives.volume.as_ref());
+            let system = system.ok_or(Miss::Step(singular))?;
+            step = -system.solve_one(&derivatives.gradient);
+            let n = self.modes.len();
+            let size = q.rows(0, n).norm() + self.size(strain);
+            if step.rows(0, n).norm() <= LAST * size {
+                if system.shifted {
+                    return Err(Miss::Unstable(self.unstable(&derivatives)));
                 }
-                let evaluated_at = q.clone();
-                q += &step;
-                return Ok(Equilibrium {
-                    q,
-                    correction: step,
-                    slopes,
-                    curvatures,
-                    factor: Some(factor),
-                    mixed,
-                    iterations: iteration + 1,
-                    evaluated_at,
-                });
+                return Ok(derivatives.into_equilibrium(q, step, Some(system), iteration + 1));
             }
-            let slope = gradient.dot(&step);
-            let energy = slopes.energy;
-            (q, displaced) =
-                self.search(&frame, &q, &step, (energy, slope), &mut state).map_err(Miss::Step)?;
+            (q, displaced) = self.search(&frame, &q, &step, &derivatives, &mut state).map_err(Miss::Step)?;
         }
         let what = "relaxation of a section";
-        Err(Miss::Step(Error::NoConvergence { what, iterations: ITERATIONS, residual: correction }))
+        Err(Miss::Step(Error::NoConvergence { what, iterations: ITERATIONS, residual: step.norm() }))
     }
 
-    /// The longest of the step, half of it, … that lowers the energy; the law is evaluated there.
+    /// The start, or as much of it as is admissible.
+    fn begin<'f>(
+        &'f self,
+        frame: &'f Frame,
+        start: &DVector<f64>,
+        state: &mut GradientState,
+    ) -> Result<(DVector<f64>, Displaced<'f>)> {
+        let mut refused = None;
+        for fraction in [1.0, 0.75, 0.5, 0.25, 0.0] {
+            let q = start * fraction;
+            let displaced = Displaced::new(self.modes, frame, &self.modes.expand(&q));
+            match self.evaluate(&displaced, &q, Request::Tangent, state) {
+                Ok(()) => return Ok((q, displaced)),
+                Err(error) => refused = Some(error),
+            }
+        }
+        let what = "start of a section's relaxation";
+        Err(refused.unwrap_or(Error::NoConvergence { what, iterations: 0, residual: 0.0 }))
+    }
+
+    fn derivatives(&self, displaced: &Displaced<'_>, q: &DVector<f64>, state: &GradientState) -> Derivatives {
+        let mut slopes = displaced.slopes(state);
+        let curvatures = displaced.curvatures(state);
+        let (n, m) = (self.modes.len(), self.pressures);
+        let mut gradient = DVector::zeros(n + m);
+        gradient.rows_mut(0, n).copy_from(&self.column(&slopes.coefficients));
+        let mut mixed = DMatrix::zeros(n + m, 6);
+        mixed.rows_mut(0, n).copy_from(&self.modes.reduce(&curvatures.mixed));
+        let hessian = self.square(&curvatures.coefficients);
+        let mut volume = None;
+        if m > 0 {
+            let conditions = pressure::conditions(displaced, m);
+            gradient.rows_mut(n, m).copy_from(&-&conditions.values);
+            mixed.rows_mut(n, m).copy_from(&-&conditions.strain);
+            slopes.energy -= q.rows(n, m).dot(&conditions.values);
+            volume = Some(self.modes.reduce(&conditions.coefficients.transpose()).transpose());
+        }
+        Derivatives { slopes, curvatures, gradient, hessian, mixed, volume }
+    }
+
+    /// The longest of the step, half of it, … that lowers the energy (with pressures, that is admissible); the law is
+    /// evaluated there.
     fn search<'f>(
         &'f self,
         frame: &'f Frame,
         q: &DVector<f64>,
         step: &DVector<f64>,
-        (energy, slope): (f64, f64),
+        derivatives: &Derivatives,
         state: &mut GradientState,
     ) -> Result<(DVector<f64>, Displaced<'f>)> {
         /// The part of the decrease promised by the slope that must come true.
         const ARMIJO: f64 = 1e-4;
+        let energy = derivatives.slopes.energy;
+        let slope = derivatives.gradient.dot(step);
         let rounding = 64.0 * f64::EPSILON * energy.abs();
         let mut fraction = 1.0;
         let mut refused = None;
         for _ in 0..HALVINGS {
             let trial = q + step * fraction;
             let displaced = Displaced::new(self.modes, frame, &self.modes.expand(&trial));
-            match self.evaluate(&displaced, Request::Tangent, state) {
+            match self.evaluate(&displaced, &trial, Request::Tangent, state) {
+                // a saddle has no energy to lower: full steps, and smaller strain steps where they do not converge
+                Ok(()) if self.pressures > 0 => return Ok((trial, displaced)),
                 Ok(()) => {
                     let lower = energy + ARMIJO * fraction * slope + rounding;
                     if displaced.energy(state) <= lower {
@@ -197,23 +247,25 @@ impl<M: Local> Problem<'_, M> {
             fraction *= 0.5;
         }
         let what = "line search of a section's relaxation";
-        Err(refused.unwrap_or(Error::NoConvergence {
-            what,
-            iterations: HALVINGS,
-            residual: step.norm() * fraction,
-        }))
+        let residual = step.norm() * fraction;
+        Err(refused.unwrap_or(Error::NoConvergence { what, iterations: HALVINGS, residual }))
     }
 
     /// Evaluates the law, or says where it cannot be.
     pub(super) fn evaluate(
         &self,
         displaced: &Displaced<'_>,
+        q: &DVector<f64>,
         request: Request,
         state: &mut GradientState,
     ) -> Result<()> {
         let smallest = displaced.evaluate(self.law, self.at.s, request, state);
         if smallest > 0.0 && displaced.energy(state).is_finite() && displaced.h.iter().all(|h| h.is_finite())
         {
+            if self.pressures > 0 {
+                let pressures = &q.as_slice()[self.modes.len()..];
+                pressure::press(displaced, pressures, request, state);
+            }
             return Ok(());
         }
         Err(self.inadmissible(displaced, state))
@@ -266,8 +318,12 @@ impl<M: Local> Problem<'_, M> {
 
     /// Names the direction in which the energy has no minimum.
     #[cold]
-    fn unstable(&self, hessian: &DMatrix<f64>) -> Error {
-        let eigen = SymmetricEigen::new(hessian.clone());
+    fn unstable(&self, derivatives: &Derivatives) -> Error {
+        let hessian = match &derivatives.volume {
+            Some(b) => augmented(&derivatives.hessian, b).0,
+            None => derivatives.hessian.clone(),
+        };
+        let eigen = SymmetricEigen::new(hessian);
         let smallest = eigen.eigenvalues.imin();
         let largest = eigen.eigenvalues.amax();
         let direction = eigen.eigenvectors.column(smallest).into_owned();
@@ -285,25 +341,4 @@ impl Miss {
             Self::Step(error) | Self::Unstable(error) => error,
         }
     }
-}
-
-/// The Cholesky factor of a Hessian, shifted by as much as makes it positive definite, and whether it had to be.
-fn factorise(hessian: &DMatrix<f64>) -> Option<(Cholesky<f64, Dyn>, bool)> {
-    /// Shifts tried, from 1e-4 of the largest diagonal entry, each four times the one before.
-    const SHIFTS: usize = 20;
-    if let Some(factor) = hessian.clone().cholesky() {
-        return Some((factor, false));
-    }
-    let mut shift = 1e-4 * hessian.diagonal().amax();
-    for _ in 0..SHIFTS {
-        let mut moved = hessian.clone();
-        for i in 0..moved.nrows() {
-            moved[(i, i)] += shift;
-        }
-        if let Some(factor) = moved.cholesky() {
-            return Some((factor, true));
-        }
-        shift *= 4.0;
-    }
-    None
 }

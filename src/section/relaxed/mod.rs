@@ -6,8 +6,10 @@
 mod assembly;
 mod equilibrium;
 mod modes;
+mod pressure;
 mod rate;
 mod space;
+mod system;
 mod warping;
 
 use std::borrow::Cow;
@@ -72,8 +74,10 @@ pub struct Relaxed<S, M> {
     warping: Warping,
     degree: Option<usize>,
     fixed: Option<Modes>,
-    /// ∂q/∂Δξ about a straight reference at rest: where the search begins.
-    predictor: Option<DMatrix<f64>>,
+    /// Whether pressures keep the volume.
+    incompressible: bool,
+    /// ∂q/∂Δξ and q about a straight reference at rest: where the search begins.
+    predictor: Option<(DMatrix<f64>, DVector<f64>)>,
 }
 
 /// A section at a strain with the displacement that relaxes it: a start for the next strain.
@@ -117,8 +121,47 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
     /// # Errors
     /// If the shape is constant and a size is not positive and finite, or the shape has too few points for the functions.
     pub fn new(shape: S, law: M) -> Result<Self> {
+        Self::with(shape, law, false)
+    }
+
+    /// A section of a material that cannot change its volume, J = 1: a field of pressure holds it, and u(I₁−3, I₂−3) has no
+    /// volumetric part.
+    ///
+    /// The pressure π, a polynomial of degree p − 1, makes stationary what the displacement makes smallest:
+    ///
+    /// ```math
+    /// \operatorname*{stat}_{q,\,\pi} \int \bigl(u - \pi\,(J - 1)\bigr)\,dV
+    /// ```
+    ///
+    /// ```
+    /// use hyperrod::Strain;
+    /// use hyperrod::material::{MooneyRivlin, ReferencePressure, Station};
+    /// use hyperrod::section::{CrossSection, Rectangle, Relaxed, Warping};
+    /// # fn main() -> hyperrod::Result<()> {
+    /// let (c1, c2) = (120e3, 40e3);
+    /// let rubber = ReferencePressure(MooneyRivlin::new(c1, c2)?);
+    /// let band = Relaxed::incompressible(Rectangle::new(0.02, 0.01), rubber)?.with_warping(Warping::CONTRACTION)?;
+    /// let stretch: f64 = 2.0;
+    /// let mut strain = Strain::zero();
+    /// strain.linear.z = stretch - 1.0;
+    /// let force = band.wrench(&Station::straight(0.0), &strain)?.force.z;
+    /// let exact = 2.0 * 2e-4 * (stretch - stretch.powi(-2)) * (c1 + c2 / stretch); // Mooney (1940)
+    /// assert!((force / exact - 1.0).abs() < 1e-14);
+    /// # Ok(()) }
+    /// ```
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    ///
+    /// Source: Rivlin (1948), Phil. Trans. R. Soc. A 241, 379; displacements of degree p with pressures of degree p − 1 as in Boffi,
+    /// Brezzi and Fortin (2013), *Mixed Finite Element Methods and Applications*, ch. 8.
+    pub fn incompressible(shape: S, law: M) -> Result<Self> {
+        Self::with(shape, law, true)
+    }
+
+    fn with(shape: S, law: M, incompressible: bool) -> Result<Self> {
         let (warping, degree, fixed, predictor) = (Warping::TORSION, None, None, None);
-        Self { shape, law, warping, degree, fixed, predictor }.prepared()
+        Self { shape, law, warping, degree, fixed, incompressible, predictor }.prepared()
     }
 
     /// The same with the functions of another rung of the ladder, or any degrees.
@@ -157,6 +200,14 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
             let quantity = "degree of a section's displacement";
             return Err(Error::Invalid { quantity, value: largest as f64, requirement: "at most 12" });
         }
+        if self.incompressible && self.warping.in_plane == 0 {
+            let quantity = "in-plane degree of an incompressible section";
+            return Err(Error::Invalid {
+                quantity,
+                value: 0.0,
+                requirement: "at least 1: a rigid one cannot stretch",
+            });
+        }
         let least = (2 * largest.max(1) - 2).max(2);
         let degree = self.quadrature_degree();
         if degree < least {
@@ -169,10 +220,10 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
         if self.shape.is_constant() {
             let modes = self.modes_at(0.0)?;
             let at = Station::straight(0.0);
-            let problem = Problem { modes: &modes, law: &self.law, at: &at };
-            let rest = problem.solve(&Strain::zero(), &DVector::zeros(modes.len()));
+            let problem = self.problem(&modes, &at);
+            let rest = problem.solve(&Strain::zero(), &DVector::zeros(problem.unknowns()));
             // a law that has no rest, or none here, starts from no displacement
-            self.predictor = rest.ok().map(|rest| rest.sensitivity());
+            self.predictor = rest.ok().map(|rest| (rest.sensitivity(), rest.q));
             self.fixed = Some(modes);
         } else {
             self.shape.rule(degree)?;
@@ -240,8 +291,8 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
     ) -> Result<(Response, Relaxation)> {
         check_strain(strain, at.s)?;
         let modes = self.modes(at.s)?;
-        let problem = Problem { modes: &modes, law: &self.law, at };
-        let equilibrium = problem.solve(strain, &self.start(&modes, start, strain))?;
+        let problem = self.problem(&modes, at);
+        let equilibrium = problem.solve(strain, &self.start(problem.unknowns(), start, strain))?;
         let response = self.condense(&problem, strain, &equilibrium, request)?;
         let relaxation = Relaxation {
             strain: *strain,
@@ -252,11 +303,22 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
         Ok((response, relaxation))
     }
 
-    fn start(&self, modes: &Modes, start: Option<&Relaxation>, strain: &Strain) -> DVector<f64> {
+    fn problem<'a>(&'a self, modes: &'a Modes, at: &'a Station) -> Problem<'a, M> {
+        let pressures = match (self.incompressible, self.warping.in_plane) {
+            (false, _) | (true, 0) => 0,
+            (true, 1) => 1,
+            (true, degree) => modes.space.count(degree - 1),
+        };
+        Problem { modes, law: &self.law, at, pressures }
+    }
+
+    fn start(&self, unknowns: usize, start: Option<&Relaxation>, strain: &Strain) -> DVector<f64> {
         match (start, &self.predictor) {
-            (Some(start), _) if start.amplitudes.len() == modes.len() => start.predict(strain),
-            (_, Some(predictor)) => predictor * DVector::from_column_slice(&strain.to_array()),
-            _ => DVector::zeros(modes.len()),
+            (Some(start), _) if start.amplitudes.len() == unknowns => start.predict(strain),
+            (_, Some((sensitivity, rest))) => {
+                rest + sensitivity * DVector::from_column_slice(&strain.to_array())
+            }
+            _ => DVector::zeros(unknowns),
         }
     }
 
@@ -273,19 +335,16 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
         response.energy = slopes.energy;
         let mut psi = slopes.strain;
         let mut tangent = equilibrium.curvatures.strain;
-        if let Some(factor) = &equilibrium.factor {
-            // with δ = −U_qq⁻¹ U_q: U − ½ U_q·U_qq⁻¹ U_q = U − ½ |Lᵀ δ|²
-            let l = factor.l_dirty();
-            let lower = l.lower_triangle();
-            response.energy -= 0.5 * lower.tr_mul(step).norm_squared();
+        if let Some(system) = &equilibrium.system {
+            // to second order in the last correction δq = −U_qq⁻¹ U_q
+            response.energy += equilibrium.lowered;
             for (k, change) in equilibrium.mixed.tr_mul(step).iter().enumerate() {
                 psi[k] += change;
             }
-            let mut half = equilibrium.mixed.clone();
-            lower.solve_lower_triangular_mut(&mut half);
+            let solved = system.solve(&equilibrium.mixed);
             for i in 0..6 {
                 for k in i..6 {
-                    tangent[(i, k)] -= half.column(i).dot(&half.column(k));
+                    tangent[(i, k)] -= equilibrium.mixed.column(i).dot(&solved.column(k));
                 }
             }
         }
@@ -305,7 +364,7 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
             let coefficients = problem.modes.expand(&equilibrium.evaluated_at);
             let displaced = Displaced::new(problem.modes, &frame, &coefficients);
             let mut state = GradientState::default();
-            problem.evaluate(&displaced, Request::Rate, &mut state)?;
+            problem.evaluate(&displaced, &equilibrium.evaluated_at, Request::Rate, &mut state)?;
             let rate = rate::wrench_rate(&displaced, &state, equilibrium, &coefficients, problem.at);
             response.wrench_rate = Wrench::from_vector(&rate);
         }

@@ -8,12 +8,32 @@ use nalgebra::{DMatrix, DVector, Vector6};
 use super::assembly::{Displaced, column, times};
 use super::equilibrium::Equilibrium;
 use super::modes::Modes;
+use super::pressure;
 use crate::material::{GradientState, Station};
 
 /// Derivatives in s, at fixed strain and coefficients, of the first derivatives of U.
 struct Drift {
     strain: Vector6<f64>,
     coefficients: DVector<f64>,
+    /// H′ at the points, by rows, and the rate of their volumes.
+    h: Vec<[f64; 9]>,
+    volume: Vec<f64>,
+}
+
+/// d/ds of ∫ψₐ (J − 1) dV at fixed strain and coefficients.
+fn conditions_drift(displaced: &Displaced<'_>, drift: &Drift, count: usize) -> DVector<f64> {
+    let modes = displaced.modes;
+    DVector::from_fn(count, |a, _| {
+        (0..modes.points.len())
+            .map(|q| {
+                let (cofactor, change) = pressure::cofactor(&pressure::gradient_at(displaced, q));
+                let (value, rate) = (pressure::function(modes, a, q), pressure::function_rate(modes, a, q));
+                let growth: f64 = (0..9).map(|c| cofactor[c] * drift.h[q][c]).sum();
+                let volume = displaced.frame.volume[q];
+                drift.volume[q] * value * change + volume * (rate * change + value * growth)
+            })
+            .sum()
+    })
 }
 
 /// Ψ′, from the state the law is in at `displaced` (asked for rates).
@@ -26,7 +46,7 @@ pub(super) fn wrench_rate(
 ) -> Vector6<f64> {
     let modes = displaced.modes;
     let drift = drift(displaced, state, coefficients, at);
-    let Some(factor) = &equilibrium.factor else { return drift.strain };
+    let Some(system) = &equilibrium.system else { return drift.strain };
     let full = &equilibrium.curvatures;
     let as_matrix = |v: &DVector<f64>| DMatrix::from_column_slice(v.len(), 1, v.as_slice());
     // rigid motions: M c′ = −A′ c and λ = −U_c / M
@@ -36,9 +56,17 @@ pub(super) fn wrench_rate(
     let multipliers = modes.rigid(&as_matrix(&equilibrium.slopes.coefficients)) * (-1.0 / mass);
     let mixed_rigid = modes.rigid(&full.mixed);
     let coupling = modes.reduce(&modes.rigid(&full.coefficients).transpose());
-    let moved = drift.coefficients + turning.tr_mul(&multipliers).column(0);
-    let right = modes.reduce(&as_matrix(&moved)) + coupling * &rigid_rate;
-    let rate = -factor.solve(&right);
+    let moved = &drift.coefficients + turning.tr_mul(&multipliers).column(0);
+    let n = modes.len();
+    let pressures = equilibrium.mixed.nrows() - n;
+    let mut right = DMatrix::zeros(n + pressures, 1);
+    right.rows_mut(0, n).copy_from(&(modes.reduce(&as_matrix(&moved)) + coupling * &rigid_rate));
+    if pressures > 0 {
+        let rigid = modes.rigid(&pressure::conditions(displaced, pressures).coefficients.transpose());
+        let moved = conditions_drift(displaced, &drift, pressures) + rigid.tr_mul(&rigid_rate);
+        right.rows_mut(n, pressures).copy_from(&-moved.column(0));
+    }
+    let rate = -system.solve(&right);
     let sum = mixed_rigid.tr_mul(&rigid_rate) + equilibrium.mixed.tr_mul(&rate);
     drift.strain + Vector6::from_iterator(sum.iter().copied())
 }
@@ -98,6 +126,7 @@ fn drift(
     let mut strain = Vector6::zeros();
     let mut f: [DVector<f64>; 3] = std::array::from_fn(|_| DVector::zeros(3 * n));
     let mut f_rate = f.clone();
+    let (mut h_rates, mut volume_rates) = (Vec::with_capacity(n), Vec::with_capacity(n));
     for q in 0..n {
         let (x, y, w) = (modes.points.x[q], modes.points.y[q], modes.points.weight[q]);
         let (g, v) = ([frame.shear[0][q], frame.shear[1][q]], frame.inverse[q]);
@@ -120,6 +149,8 @@ fn drift(
             h_rate[3 * i + 1] = d_y;
             h_rate[3 * i + 2] = (numerator - displaced.h[(3 * i + 2) * n + q] * dj) * v;
         }
+        h_rates.push(h_rate);
+        volume_rates.push(d_volume);
         // P′
         let p: [f64; 9] = std::array::from_fn(|c| state.stress[c * n + q]);
         let p_rate: [f64; 9] = std::array::from_fn(|c| {
@@ -156,5 +187,5 @@ fn drift(
             rows += part;
         }
     }
-    Drift { strain, coefficients }
+    Drift { strain, coefficients, h: h_rates, volume: volume_rates }
 }
