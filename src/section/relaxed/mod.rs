@@ -4,6 +4,7 @@
 //! [`CrossSection`].
 
 mod assembly;
+mod deformed;
 mod equilibrium;
 mod modes;
 mod pressure;
@@ -26,6 +27,7 @@ use crate::error::{Error, Result};
 use crate::lie::{Strain, Wrench};
 use crate::material::{GradientState, Local, Request, Response, Station, check_strain};
 
+pub use deformed::{Deformed, Extremes, SectionPoint};
 pub use warping::Warping;
 
 /// A shape filled with one material whose points are free to move: the section contracts, bends the other way, ovalises and warps.
@@ -301,6 +303,32 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
             amplitudes: equilibrium.q,
         };
         Ok((response, relaxation))
+    }
+
+    /// The section at a strain, to be looked at point by point.
+    ///
+    /// ```
+    /// use hyperrod::Strain;
+    /// use hyperrod::material::{NeoHookean, Station};
+    /// use hyperrod::section::{Circle, Relaxed, Warping};
+    /// # fn main() -> hyperrod::Result<()> {
+    /// let cord = Relaxed::new(Circle::new(0.01), NeoHookean::from_young(1e6, 0.45)?)?.with_warping(Warping::CONTRACTION)?;
+    /// let mut strain = Strain::zero();
+    /// strain.linear.z = 0.5;
+    /// let rim = cord.deformed(&Station::straight(0.0), &strain)?.point(0.01, 0.0)?;
+    /// assert!(rim.position[0] < 0.0085 && (rim.largest_stretch() - 1.5).abs() < 1e-12);
+    /// assert!(rim.cauchy()[(0, 0)].abs() < 1e-6 * rim.cauchy()[(2, 2)]); // its sides are free
+    /// # Ok(()) }
+    /// ```
+    ///
+    /// # Errors
+    /// As [`CrossSection::respond`].
+    pub fn deformed(&self, at: &Station, strain: &Strain) -> Result<Deformed<'_, M>> {
+        let (_, relaxation) = self.respond_from(None, at, strain, Request::Wrench)?;
+        let modes = self.modes(at.s)?;
+        let coefficients = modes.expand(&relaxation.amplitudes);
+        let pressures = relaxation.amplitudes.as_slice()[modes.len()..].to_vec();
+        Ok(Deformed { modes, law: &self.law, at: *at, strain: *strain, coefficients, pressures })
     }
 
     fn problem<'a>(&'a self, modes: &'a Modes, at: &'a Station) -> Problem<'a, M> {

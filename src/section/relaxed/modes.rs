@@ -43,6 +43,11 @@ impl Modes {
         plane + self.counts[2] - 3
     }
 
+    /// The largest degree of the functions.
+    pub(super) fn degree(&self) -> usize {
+        self.degree
+    }
+
     /// How many coefficients: the modes and six rigid motions, and what a plane that does not deform leaves.
     pub(super) fn full(&self) -> usize {
         self.counts.iter().sum()
