@@ -182,6 +182,7 @@ pub mod error;
 pub mod lie;
 pub mod load;
 pub mod material;
+pub mod output;
 pub mod quadrature;
 pub mod rod;
 pub mod scalar;
