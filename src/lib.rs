@@ -179,6 +179,7 @@ pub use num_dual;
 pub mod body;
 /// Errors: which quantity, which value, where.
 pub mod error;
+pub mod guide;
 pub mod lie;
 pub mod load;
 pub mod material;
