@@ -1,4 +1,4 @@
-//! Three fingers of one shape and one mean stiffness, graded along their length in the law itself, under the same force.
+//! Three fingers of one shape and one mean modulus, graded along their length in the law itself, under the same force.
 
 use crate::figure::{BLUE, Drawing, GREEN, ORANGE, Outcome, silhouette};
 use hyperrod::load::DeadWrench;
@@ -25,12 +25,12 @@ fn solve(slope: f64, elements: usize) -> Outcome<StaticSolution> {
 }
 
 pub fn draw(quick: bool, picture: &Path) -> Outcome {
-    let title = "Fingers of one mean stiffness under the same force, to scale";
+    let title = "Fingers of one mean modulus under the same force, to scale";
     let mut drawing = Drawing::new(title, "X, mm", "Z, mm");
     for (slope, name, color) in
         [(0.8, "soft tip", BLUE), (0.0, "uniform", ORANGE), (-0.8, "soft base", GREEN)]
     {
-        let solution = solve(slope, if quick { 8 } else { 24 })?;
+        let solution = solve(slope, if quick { 8 } else { 48 })?;
         let sides: Vec<_> = solution.nodes().iter().map(|n| (n.pose, 0.5 * THICKNESS)).collect();
         let outline = silhouette(&sides, Vector3::x(), [Vector3::x(), Vector3::z()], 1e-3);
         drawing = drawing.area(outline, color).legend(name, color);

@@ -20,7 +20,10 @@ fn solve(section: Box<dyn CrossSection>, elements: usize) -> Outcome<StaticSolut
     // along +X, its width along Y, its face up
     let turned =
         Isometry3::rotation(vector![0.0, FRAC_PI_2, 0.0]) * Isometry3::rotation(vector![0.0, 0.0, FRAC_PI_2]);
-    let pull = DeadWrench::force(vector![0.0, 0.004, -0.006])?;
+    let f: Vec<f64> = std::env::var("F")
+        .map(|t| t.split(',').map(|v| v.parse().unwrap()).collect())
+        .unwrap_or(vec![0.0, 0.004, -0.006, 0.0, 0.0, 0.0]);
+    let pull = DeadWrench::new(vector![f[3], f[4], f[5]], vector![f[0], f[1], f[2]])?;
     let rod = Rod::clamped(body, Pose::from(turned)).with_tip_load(pull);
     Ok(Statics { elements, max_iterations: 200, ..Statics::default() }.solve(&rod)?)
 }

@@ -31,8 +31,9 @@ pub fn draw(quick: bool, picture: &Path) -> Outcome {
         largest = largest.max(warping.abs());
         cells.push((corners.map(|p| [p[0] * 1e3, p[1] * 1e3]).to_vec(), warping));
     }
-    let title =
-        format!("Warping of a 10 mm square bar twisted by {TWIST} rad/m: GJ = {constant:.3} G (Ix + Iy)");
+    let title = format!(
+        "10 mm square bar twisted by {TWIST} rad/m: warping (at rest GJ = {constant:.3} G (Ix + Iy))"
+    );
     let mut drawing = Drawing::new(&title, "x, mm", "y, mm")
         .legend(&format!("w = +{:.2} mm along the bar", largest * 1e3), ORANGE)
         .legend(&format!("−{:.2} mm, white 0", largest * 1e3), BLUE);

@@ -34,5 +34,5 @@ pub fn draw(quick: bool, picture: &Path) -> Outcome {
         }
         drawing = drawing.legend(&format!("tension {tension} N"), color);
     }
-    drawing.wall([40.0, 0.0], [-40.0, 0.0]).save(picture)
+    drawing.wall([-15.0, 0.0], [-35.0, 0.0]).wall([35.0, 0.0], [15.0, 0.0]).save(picture)
 }
