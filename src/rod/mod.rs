@@ -12,5 +12,7 @@ pub(crate) mod magnus;
 mod planar;
 mod scene;
 mod stages;
+mod strong_form;
 
 pub use scene::Rod;
+pub use strong_form::{Motion, RateLoad, SectionState, StrainRate};
