@@ -14,6 +14,8 @@ mod mesh;
 mod newton;
 mod report;
 mod solution;
+#[allow(dead_code)]
+mod stability;
 mod statics;
 mod sweep;
 mod workspace;

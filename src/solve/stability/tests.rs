@@ -1,0 +1,142 @@
+//! The index against closed forms: Euler, Greenhill, and counts of modes.
+
+use std::f64::consts::PI;
+
+use nalgebra::{Matrix6, Vector3, vector};
+
+use super::*;
+use crate::lie::{Strain, Wrench};
+use crate::load::{DeadWrench, TipLoad};
+use crate::rod::condense::Condensed;
+use crate::section::Stiffness;
+use crate::solve::equilibrium::Configuration;
+use crate::solve::mesh::{Mesh, StageStrains};
+use crate::{Body, Pose, Rod};
+
+const CLAMP: [bool; 6] = [true; 6];
+const FREE: [bool; 6] = [false; 6];
+/// Held sideways, free along the rod and to turn about the axes of the section; held against spinning at one end only.
+const PIN: [bool; 6] = [false, false, true, true, true, true];
+const ROLLER: [bool; 6] = [false, false, false, true, true, false];
+
+/// A straight rod under a constant wrench (moment and force along its axis).
+struct Straight {
+    length: f64,
+    stiffness: [f64; 6],
+    twist: f64,
+    force: f64,
+    elements: usize,
+}
+
+impl Straight {
+    fn chain<const S: usize>(&self, base: [bool; 6], tip: [bool; 6], mut check: impl FnMut(&Chain<'_>)) {
+        let body = Body::new(self.length, Stiffness::diagonal(self.stiffness).unwrap()).unwrap();
+        let wrench = Wrench::new(vector![0.0, 0.0, self.twist], vector![0.0, 0.0, self.force]);
+        let load = DeadWrench::new(wrench.moment, wrench.force).unwrap();
+        let rod = Rod::clamped(body, Pose::identity()).with_tip_load(load);
+        let mesh = Mesh::<_, S>::uniform(&rod, self.elements);
+        let (k, w) = (self.stiffness, wrench.to_array());
+        let strain = Strain::from_array(std::array::from_fn(|i| w[i] / k[i]));
+        let strains: StageStrains<S> = vec![[strain; S]; self.elements];
+        let mut state = Configuration::default();
+        mesh.configure(&strains, &mut state).unwrap();
+        let units = Units { length: self.length, force: k[0].max(k[1]) / self.length.powi(2) };
+        let links: Vec<Link> = (0..self.elements)
+            .map(|i| {
+                let mut element = Condensed::empty();
+                element.fill(&mesh.table, &mesh.element(i, &strains, &state)).unwrap();
+                Link::new(&element.transfer, &state.node_wrench[i], &state.node_wrench[i + 1], &units)
+            })
+            .collect();
+        // what of a load acts on a fixed component does nothing
+        let at_tip = load.at(&state.node_pose[self.elements]).unwrap();
+        let force = Wrench::new(Vector3::zeros(), at_tip.wrench.force);
+        let mut tangent = Matrix6::zeros();
+        tangent.fixed_view_mut::<3, 3>(3, 0).copy_from(&at_tip.tangent.fixed_view::<3, 3>(3, 0));
+        let tip = Condition::fixing(tip).with_load(&force, &tangent, &units);
+        check(&Chain { links: &links, base: Condition::fixing(base), tip });
+    }
+
+    fn index<const S: usize>(&self, base: [bool; 6], tip: [bool; 6]) -> usize {
+        let mut index = 0;
+        self.chain::<S>(base, tip, |chain| {
+            index = match chain.verdict() {
+                Verdict::Index { unstable, .. } => unstable,
+                verdict => panic!("{verdict:?}"),
+            };
+        });
+        index
+    }
+}
+
+/// A round rod of radius `r`, E = 1e6, ν = ½, under a compressive force.
+fn column(length: f64, r: f64, force: f64, elements: usize) -> Straight {
+    let (e, i, a) = (1e6, PI * r.powi(4) / 4.0, PI * r * r);
+    let g = e / 3.0;
+    let stiffness = [e * i, e * i, 2.0 * g * i, g * a, g * a, e * a];
+    Straight { length, stiffness, twist: 0.0, force: -force, elements }
+}
+
+/// (kL)² of a round column: P(1 + P(1/GA − 1/EA)) L²/EI.
+fn slenderness(c: &Straight) -> f64 {
+    let (k, p) = (c.stiffness, -c.force);
+    p * (1.0 + p * (1.0 / k[3] - 1.0 / k[5])) * c.length * c.length / k[0]
+}
+
+/// Critical (kL) of the modes of a plane, ascending.
+fn criticals(kind: &str, n: usize) -> Vec<f64> {
+    match kind {
+        "clamped free" => (0..n).map(|i| (i as f64 + 0.5) * PI).collect(),
+        "pinned" => (0..n).map(|i| (i as f64 + 1.0) * PI).collect(),
+        _ => (0..n)
+            .map(|i| if i % 2 == 0 { (i as f64 + 2.0) * PI } else { 2.0 * tangent_root(i.div_ceil(2)) })
+            .collect(),
+    }
+}
+
+/// The i-th root of tan x = x, in (iπ, (i + ½)π).
+fn tangent_root(i: usize) -> f64 {
+    let (mut a, mut b) = (i as f64 * PI, (i as f64 + 0.5) * PI);
+    for _ in 0..100 {
+        let x = 0.5 * (a + b);
+        if (x.sin() - x * x.cos() > 0.0) == (a.sin() - a * a.cos() > 0.0) { a = x } else { b = x }
+    }
+    a
+}
+
+#[test]
+fn the_index_of_a_column_counts_euler_s_modes_twice() {
+    for (kind, base, tip) in
+        [("clamped free", CLAMP, FREE), ("pinned", PIN, ROLLER), ("clamped", CLAMP, CLAMP)]
+    {
+        for force in [-0.01, 1e-4, 1.3e-3, 5.5e-3, 0.02, 0.05, 0.13, 0.31] {
+            let rod = column(1.0, 0.005, force, 24);
+            let critical = criticals(kind, 12);
+            let expected = 2 * critical.iter().filter(|k| *k * *k < slenderness(&rod)).count();
+            assert_eq!(rod.index::<2>(base, tip), expected, "{kind} at {force}, order 4");
+            assert_eq!(rod.index::<3>(base, tip), expected, "{kind} at {force}, order 6");
+        }
+    }
+}
+
+#[test]
+fn a_clamped_rod_shortened_by_a_tenth_has_an_unstable_mode_for_each_euler_load_it_passed() {
+    let (r, e) = (0.02_f64, 1e6);
+    let rod = column(1.0, r, 0.1 * e * PI * r * r, 20);
+    let expected = criticals("clamped", 40).iter().filter(|k| *k * *k < slenderness(&rod)).count();
+    assert_eq!(rod.index::<3>(CLAMP, CLAMP), 2 * expected);
+    assert!(expected > 5);
+}
+
+#[test]
+fn a_twisted_clamped_rod_buckles_at_greenhill_s_moment() {
+    // tan(ML/4EI·…): with both ends held against everything but extension, M L/EI = 2 · 4.4934 (Greenhill 1883; Antman and Kenney 1981)
+    let critical = 2.0 * tangent_root(1);
+    let slides = [true, true, true, true, true, false];
+    for (factor, expected) in [(0.999, 0), (1.001, 1)] {
+        let mut rod = column(1.0, 0.005, 0.0, 24);
+        rod.twist = factor * critical * rod.stiffness[0];
+        let found = rod.index::<3>(CLAMP, slides);
+        assert!(if expected == 0 { found == 0 } else { found > 0 }, "{factor}: {found}");
+    }
+}
