@@ -5,6 +5,8 @@
 
 mod cascade;
 mod chain;
+#[allow(dead_code)]
+mod continuation;
 mod describe;
 mod equilibrium;
 mod estimate;

@@ -1,12 +1,12 @@
 //! Eigenvalues of small symmetric matrices by Jacobi's rotations: as exact for the small ones as for the large.
 
 /// The largest matrix there is.
-pub(super) const MAX: usize = 12;
+pub(super) const MAX: usize = 18;
 
 /// Sweeps of rotations; six are usual.
 const SWEEPS: usize = 30;
 
-/// A symmetric matrix of up to 12 rows.
+/// A symmetric matrix of up to 18 rows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Symmetric {
     pub(super) size: usize,

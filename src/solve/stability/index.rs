@@ -32,7 +32,7 @@ pub(super) struct Swept {
     /// Modes that the nodes before the tip added.
     before: usize,
     pub(super) last: Last,
-    /// Planes at the nodes, and the triangles that lead from one to the next.
+    /// Planes at the nodes before the tip, and the triangles that lead from one to the next.
     pub(super) planes: Vec<Plane>,
     pub(super) triangles: Vec<Matrix6<f64>>,
 }
@@ -41,18 +41,22 @@ impl Chain<'_> {
     /// The index under the essential conditions of both ends.
     pub(crate) fn verdict(&self) -> Verdict {
         match self.sweep() {
-            Ok(swept) => {
-                let (last, neutral) = swept.last.count(NEUTRAL);
-                Verdict::Index { unstable: swept.before + last, neutral }
-            }
+            Ok(swept) => match swept.last.count(NEUTRAL) {
+                Some((last, neutral)) => Verdict::Index { unstable: swept.before + last, neutral },
+                None => Verdict::Unresolved { element: self.links.len() - 1 },
+            },
             Err(element) => Verdict::Unresolved { element },
         }
     }
 
-    /// A number that passes through zero, falling, when the mode of number `mode` (from 0, in the order in which they become unstable) does so.
+    /// A number that passes through zero, falling, when the mode of number `mode` (from 0, in the order in which they become unstable) does so;
+    /// far behind that −1.
     pub(crate) fn margin(&self, mode: usize) -> Option<f64> {
         let swept = self.sweep().ok()?;
-        swept.last.eigenvalue(mode.checked_sub(swept.before)?)
+        match mode.checked_sub(swept.before) {
+            Some(mode) => swept.last.eigenvalue(mode),
+            None => Some(-1.0),
+        }
     }
 
     /// Displacements ζ of all nodes in the mode of number `mode`, in units of the rod, the largest component 1.
@@ -65,18 +69,16 @@ impl Chain<'_> {
         let mut plane = self.base.plane();
         let (mut planes, mut triangles) = (vec![plane], Vec::with_capacity(self.links.len()));
         let mut before = 0;
-        for (element, link) in self.links.iter().enumerate() {
+        let (last_link, links) = self.links.split_last().ok_or(0_usize)?;
+        for (element, link) in links.iter().enumerate() {
             let relation = plane.relation().ok_or(element)?;
-            let compliance = link.zeta_zeta.try_inverse().ok_or(element)? * link.zeta_momentum;
-            before += joining(&relation, &compliance).ok_or(element)?;
+            before += joining(&relation, link).ok_or(element)?;
             let triangle;
             (plane, triangle) = plane.behind(link);
             planes.push(plane);
             triangles.push(triangle);
         }
-        let elements = self.links.len();
-        let relation = plane.relation().ok_or(elements)?;
-        let last = Last::new(&relation, &self.tip).ok_or(elements)?;
-        Ok(Swept { before, last, planes, triangles })
+        let last = plane.relation().and_then(|relation| Last::new(&relation, last_link, &self.tip));
+        Ok(Swept { before, last: last.ok_or(links.len())?, planes, triangles })
     }
 }

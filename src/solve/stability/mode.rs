@@ -2,10 +2,10 @@ use nalgebra::Vector6;
 
 use super::index::Swept;
 
-/// The mode whose tip is an eigenvector of the last pivot, back along the rod: a_i = R⁻¹ a_{i+1} in the bases of the planes.
+/// The mode whose last two nodes are an eigenvector of the last pivot, back along the rod: a_i = R⁻¹ a_{i+1} in the bases of the planes.
 pub(super) fn shape(swept: &Swept, k: usize) -> Option<Vec<Vector6<f64>>> {
-    let mut a = swept.last.coefficients(k)?;
-    let mut nodes = vec![swept.planes.last()?.zeta * a];
+    let (mut a, tip) = swept.last.mode(k)?;
+    let mut nodes = vec![tip, swept.planes.last()?.zeta * a];
     for (plane, triangle) in swept.planes.iter().zip(&swept.triangles).rev() {
         a = triangle.solve_upper_triangular(&a)?;
         nodes.push(plane.zeta * a);

@@ -4,13 +4,11 @@ use nalgebra::{Matrix6, Vector6};
 
 use super::condition::Condition;
 use super::eigen::{Eigen, Symmetric};
+use super::link::Link;
 use super::plane::Relation;
 
 /// A compliance below this, in units of the rod, holds as a clamp does.
 const HELD: f64 = 1e-13;
-
-/// What is added to a compliance where it meets a free direction of the tip.
-const SOFTENED: f64 = 1e-10;
 
 /// Eigenvalues of Q, the compliance of the stiff directions, that are surely negative.
 fn negative_compliances(relation: &Relation) -> usize {
@@ -18,41 +16,63 @@ fn negative_compliances(relation: &Relation) -> usize {
     q.eigen().below(-HELD)
 }
 
-/// How many eigenvalues of P + C⁻¹ are negative, for the plane μ = P ζ and the compliance C ≥ 0 of the next element; `None` where C is not.
-///
-/// The sum is the Schur complement of the symmetric matrix of (λ, ζ_soft), λ the reaction of the element,
-///
-/// [[−C − Q, E], [Eᵀ, P_soft]]
-///
-/// whose other blocks have known signs (Haynsworth's additivity of the inertia).
-pub(super) fn joining(relation: &Relation, compliance: &Matrix6<f64>) -> Option<usize> {
-    let (g, m) = (relation.stiff, &relation.matrix);
-    let c = relation.basis.tr_mul(compliance) * relation.basis;
-    let own = Symmetric::part_of(6, |i, j| c[(i, j)]).eigen();
-    // one that is longer than its own critical length has negative ones
-    if !own.is_finite() || own.below(-1e-6 * own.value[5].abs()) > 0 {
-        return None;
-    }
-    let entry = |i: usize, j: usize| match (i < 6, j < 6) {
-        (true, true) if i < g && j < g => -c[(i, j)] - m[(i, j)],
-        (true, true) => -c[(i, j)],
-        (true, false) if i < g => m[(i, g + j - 6)],
-        (true, false) => f64::from(u8::from(i == g + j - 6)),
-        (false, true) if j < g => m[(j, g + i - 6)],
-        (false, true) => f64::from(u8::from(j == g + i - 6)),
-        (false, false) => m[(g + i - 6, g + j - 6)],
-    };
-    let whole = Symmetric::part_of(12 - g, entry).eigen();
-    (negative_compliances(relation) + whole.below(HELD)).checked_sub(6)
+/// An element held at its far end.
+struct Held {
+    /// A⁻¹.
+    inverse: Matrix6<f64>,
+    /// A⁻¹ B.
+    compliance: Matrix6<f64>,
+    /// How many of its eigenvalues are positive or nothing. A momentum of nothing at the free end is a load that turns half way with it, so
+    /// that an element may be unstable in this state which is not when held at both ends.
+    positive: usize,
 }
 
-/// The last pivot: the stiffness of the whole rod at its tip, over what can move there and what holds the stiff directions.
+impl Held {
+    fn new(link: &Link) -> Option<Self> {
+        let inverse = link.zeta_zeta.try_inverse()?;
+        let compliance = inverse * link.zeta_momentum;
+        let eigen = Symmetric::part_of(6, |i, j| compliance[(i, j)]).eigen();
+        eigen.is_finite().then(|| Self { inverse, compliance, positive: 6 - eigen.below(-HELD) })
+    }
+}
+
+/// The symmetric matrix of (λ, ζ_soft), λ the reaction of the element in the directions of the relation:
+///
+/// [[−C − Q, E], [Eᵀ, P_soft]]
+fn joined(relation: &Relation, compliance: &Matrix6<f64>, i: usize, j: usize) -> f64 {
+    let (g, m) = (relation.stiff, &relation.matrix);
+    let coupling = |a: usize, soft: usize| if a < g { m[(a, soft)] } else { f64::from(u8::from(a == soft)) };
+    match (i < 6, j < 6) {
+        (true, true) => {
+            let stiff = if i < g && j < g { m[(i, j)] } else { 0.0 };
+            let held = if i == j { HELD } else { 0.0 };
+            -compliance[(i, j)] - stiff - held
+        }
+        (true, false) => coupling(i, g + j - 6),
+        (false, true) => coupling(j, g + i - 6),
+        (false, false) => m[(g + i - 6, g + j - 6)],
+    }
+}
+
+/// How many eigenvalues of P + C⁻¹ are negative, for the plane μ = P ζ and the compliance C of the next element, held at its far end.
+///
+/// The sum is a Schur complement of the matrix of [`joined`], whose other complements have known signs (Haynsworth's additivity of the
+/// inertia).
+pub(super) fn joining(relation: &Relation, link: &Link) -> Option<usize> {
+    let held = Held::new(link)?;
+    let c = relation.basis.tr_mul(&held.compliance) * relation.basis;
+    let whole = Symmetric::part_of(12 - relation.stiff, |i, j| joined(relation, &c, i, j)).eigen();
+    (negative_compliances(relation) + whole.below(0.0)).checked_sub(held.positive)
+}
+
+/// The last pivot: the node before the tip and the tip together, under what holds the tip.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Last {
-    pub(super) eigen: Eigen,
+    eigen: Eigen,
     stiff: usize,
+    /// Coefficients in the basis of the plane before the last element, from (μ_stiff, ζ_soft).
     inverse: Matrix6<f64>,
-    /// Displacement directions at the tip that can move, as columns, in the basis of the relation.
+    /// Displacements at the tip that can move, as columns.
     free: Matrix6<f64>,
     movable: usize,
     /// Eigenvalues that are negative without being an unstable mode.
@@ -60,60 +80,58 @@ pub(super) struct Last {
 }
 
 impl Last {
-    /// P + K over the directions of the tip that can move, with the reactions ν of the stiff directions as further unknowns:
+    /// With Z what can move at the tip, K its stiffness, and A, B, C the blocks of the last element, the matrix of (λ, ζ_soft, z):
     ///
-    /// [[Zᵀ K Z + Z_softᵀ P Z_soft, (Z_stiff − M Z_soft)ᵀ], [·, −Q]]
-    pub(super) fn new(relation: &Relation, tip: &Condition) -> Option<Self> {
-        let (g, m) = (relation.stiff, &relation.matrix);
+    /// [[−A⁻¹B − Q, E, −A⁻¹Z], [·, P_soft, 0], [·, ·, Zᵀ(C A⁻¹ + K) Z]]
+    pub(super) fn new(relation: &Relation, link: &Link, tip: &Condition) -> Option<Self> {
+        let held = Held::new(link)?;
         let mut free = Matrix6::zeros();
         let mut movable = 0;
         for c in (0..6).filter(|&c| !tip.fixed[c]) {
             free.set_column(movable, &tip.directions.column(c));
             movable += 1;
         }
-        let k = free.tr_mul(&tip.stiffness) * free;
-        let z = relation.basis.tr_mul(&free);
-        let p = |i: usize, j: usize| -> f64 {
-            (g..6)
-                .flat_map(|a| (g..6).map(move |b| (a, b)))
-                .map(|(a, b)| z[(a, i)] * m[(a, b)] * z[(b, j)])
-                .sum()
+        let k = free.tr_mul(&(link.momentum_zeta * held.inverse + tip.stiffness)) * free;
+        let c = relation.basis.tr_mul(&held.compliance) * relation.basis;
+        let carried = -(relation.basis.tr_mul(&held.inverse) * free);
+        let inner = 12 - relation.stiff;
+        let entry = |i: usize, j: usize| match (i < inner, j < inner) {
+            (true, true) => joined(relation, &c, i, j),
+            (true, false) if i < 6 => carried[(i, j - inner)],
+            (false, true) if j < 6 => carried[(j, i - inner)],
+            (false, false) => k[(i - inner, j - inner)],
+            _ => 0.0,
         };
-        let coupling = |a: usize, i: usize| z[(a, i)] - (g..6).map(|b| m[(a, b)] * z[(b, i)]).sum::<f64>();
-        let entry = |i: usize, j: usize| match (i < movable, j < movable) {
-            (true, true) => k[(i, j)] + p(i, j),
-            (true, false) => coupling(j - movable, i),
-            (false, true) => coupling(i - movable, j),
-            (false, false) => -m[(i - movable, j - movable)] - if i == j { SOFTENED } else { 0.0 },
-        };
-        let eigen = Symmetric::part_of(movable + g, entry).eigen();
-        let constraints = g - negative_compliances(relation);
-        let (stiff, inverse) = (g, relation.inverse);
-        eigen.is_finite().then_some(Self { eigen, stiff, inverse, free: z, movable, constraints })
+        let eigen = Symmetric::part_of(inner + movable, entry).eigen();
+        let constraints = held.positive.checked_sub(negative_compliances(relation))?;
+        let (stiff, inverse) = (relation.stiff, relation.inverse);
+        eigen.is_finite().then_some(Self { eigen, stiff, inverse, free, movable, constraints })
     }
 
-    /// Unstable modes that the tip adds, and those that are neither stable nor unstable to within `tolerance`.
-    pub(super) fn count(&self, tolerance: f64) -> (usize, usize) {
+    /// Unstable modes that the last two nodes add, and those that are neither stable nor unstable to within `tolerance`.
+    pub(super) fn count(&self, tolerance: f64) -> Option<(usize, usize)> {
         let negative = self.eigen.below(-tolerance);
         let neutral = self.eigen.below(tolerance) - negative;
-        (negative.saturating_sub(self.constraints), neutral)
+        Some((negative.checked_sub(self.constraints)?, neutral))
     }
 
-    /// The eigenvalue that vanishes when the k-th mode of the tip becomes unstable.
+    /// The eigenvalue that vanishes when the k-th of these modes becomes unstable.
     pub(super) fn eigenvalue(&self, k: usize) -> Option<f64> {
         let place = self.constraints + k;
         (place < self.eigen.size).then(|| self.eigen.value[place])
     }
 
-    /// The tip in that mode: its coefficients in the basis of the plane.
-    pub(super) fn coefficients(&self, k: usize) -> Option<Vector6<f64>> {
+    /// That mode: the coefficients of the node before the tip in the basis of its plane, and the displacement of the tip.
+    pub(super) fn mode(&self, k: usize) -> Option<(Vector6<f64>, Vector6<f64>)> {
         let place = self.constraints + k;
         if place >= self.eigen.size {
             return None;
         }
-        let part = |c: usize| self.eigen.vector[c][place];
-        let soft = (0..self.movable).fold(Vector6::zeros(), |sum, c| sum + self.free.column(c) * part(c));
-        let given = Vector6::from_fn(|r, _| if r < self.stiff { part(self.movable + r) } else { soft[r] });
-        Some(self.inverse * given)
+        let part = |i: usize| self.eigen.vector[i][place];
+        let given = Vector6::from_fn(|r, _| if r < self.stiff { -part(r) } else { part(6 + r - self.stiff) });
+        let first = self.eigen.size - self.movable;
+        let tip =
+            (0..self.movable).fold(Vector6::zeros(), |sum, c| sum + self.free.column(c) * part(first + c));
+        Some((self.inverse * given, tip))
     }
 }

@@ -7,8 +7,10 @@ use nalgebra::{Matrix6, Vector3, vector};
 use super::*;
 use crate::lie::{Strain, Wrench};
 use crate::load::{DeadWrench, TipLoad};
+use crate::material::NeoHookean;
 use crate::rod::condense::Condensed;
-use crate::section::Stiffness;
+use crate::section::{Circle, Section, Stiffness};
+use crate::solve::continuation::illinois;
 use crate::solve::equilibrium::Configuration;
 use crate::solve::mesh::{Mesh, StageStrains};
 use crate::{Body, Pose, Rod};
@@ -138,5 +140,144 @@ fn a_twisted_clamped_rod_buckles_at_greenhill_s_moment() {
         rod.twist = factor * critical * rod.stiffness[0];
         let found = rod.index::<3>(CLAMP, slides);
         assert!(if expected == 0 { found == 0 } else { found > 0 }, "{factor}: {found}");
+    }
+}
+
+/// Where the margin of the first mode vanishes, by the Illinois rule about a closed form.
+fn critical_load(mut rod: Straight, base: [bool; 6], tip: [bool; 6], about: f64) -> f64 {
+    let mut margin = |force: f64| {
+        let mut found = None;
+        rod.force = -force;
+        rod.chain::<3>(base, tip, |chain| found = chain.margin(0));
+        found
+    };
+    let ends = [0.9 * about, 1.1 * about].map(|force| (force, margin(force).unwrap()));
+    assert!(ends[0].1 > 0.0 && ends[1].1 < 0.0, "{ends:?}");
+    illinois(ends, 0.0, margin).unwrap()
+}
+
+#[test]
+fn buckling_loads_are_those_of_the_linearised_rod() {
+    // reference: determinant of the linearised problem, 1e-12. The phase of three Gauss stages is off by h⁶/100800 relative, h = 2π/40 at most;
+    // the load goes with its square
+    let tolerance = 2.0 * (2.0 * PI / 40.0).powi(6) / 100800.0;
+    for (length, radius, [clamped, free, pinned]) in [
+        (0.6, 0.05, [479.70470304403176, 33.36055890629672, 130.25537912080944]),
+        (1.0, 0.005, [0.019369369236823822, 0.0012111453292087766, 0.004844133184028474]),
+    ] {
+        for (base, tip, reference) in [(CLAMP, CLAMP, clamped), (CLAMP, FREE, free), (PIN, ROLLER, pinned)] {
+            let found = critical_load(column(length, radius, 0.0, 40), base, tip, reference);
+            let error = (found / reference - 1.0).abs();
+            assert!(error < tolerance, "{found} {reference} {error:e} {tolerance:e}");
+        }
+    }
+}
+
+#[test]
+fn the_mode_of_a_clamped_rod_is_euler_s() {
+    // 1 − cos(2πs/L) sideways, in some direction; found beside the critical load, where the mode is off by the distance from it
+    let rod = column(1.0, 0.005, 0.019369369236823822 * (1.0 + 1e-7), 20);
+    rod.chain::<3>(CLAMP, CLAMP, |chain| {
+        let mode = chain.mode(0).unwrap();
+        let middle = mode[10];
+        let size = middle[3].hypot(middle[4]);
+        for (i, node) in mode.iter().enumerate() {
+            let shape = 0.5 * (1.0 - (2.0 * PI * i as f64 / 20.0).cos());
+            for r in 3..5 {
+                assert!((node[r] - middle[r] * shape).abs() < 1e-6 * size, "node {i}");
+            }
+            assert!(node[5].abs() < 1e-6 * size && node[2].abs() < 1e-6 * size);
+        }
+    });
+}
+
+/// A clamped neo-Hookean rod of uniform section, stretched to c by a dead force F; μ, λ, A and I.
+struct Tension {
+    mu: f64,
+    lame: f64,
+    radius: f64,
+    length: f64,
+    stretch: f64,
+}
+
+impl Tension {
+    fn area(&self) -> f64 {
+        PI * self.radius.powi(2)
+    }
+
+    /// A (μ (c − 1/c) + λ ln c / c).
+    fn force(&self) -> f64 {
+        let c = self.stretch;
+        self.area() * (self.mu * (c - 1.0 / c) + self.lame * c.ln() / c)
+    }
+
+    /// Modes of the plane: with the shear eliminated, ½ EI θ′² − ½ n (n/GA − c) θ², θ(0) = 0.
+    fn modes(&self) -> usize {
+        let (c, n) = (self.stretch, self.force());
+        let modulus = self.mu * (1.0 + c.powi(-2)) + self.lame * (1.0 - c.ln()) / (c * c);
+        let bending = modulus * PI * self.radius.powi(4) / 4.0;
+        let load = n * (n / (self.mu * self.area()) - c) * self.length.powi(2) / bending;
+        (0..100).filter(|k| ((*k as f64 + 0.5) * PI).powi(2) < load).count()
+    }
+
+    fn rod(&self) -> Rod<Body<Section<Circle<f64>, NeoHookean>>> {
+        let law = NeoHookean::new(self.mu, self.lame).unwrap();
+        let body = Body::new(self.length, Section::new(Circle::new(self.radius), law).unwrap()).unwrap();
+        let pull = DeadWrench::force(vector![0.0, 0.0, self.force()]).unwrap();
+        Rod::clamped(body, Pose::identity()).with_tip_load(pull)
+    }
+
+    /// Unstable modes, and the energy that the sections win by tilting through ε sin(πs/2L), over ε².
+    fn found(&self) -> (usize, f64) {
+        const TILT: f64 = 1e-3;
+        let (rod, elements) = (self.rod(), 24);
+        let mesh = Mesh::<_, 3>::uniform(&rod, elements);
+        let straight = Strain::from_array([0.0, 0.0, 0.0, 0.0, 0.0, self.stretch - 1.0]);
+        let strains: StageStrains<3> = vec![[straight; 3]; elements];
+        let (wave, shear) = (0.5 * PI / self.length, self.force() / (self.mu * self.area()));
+        let tilted: StageStrains<3> = (0..elements)
+            .map(|i| {
+                std::array::from_fn(|k| {
+                    let phase = wave * mesh.stage_s(i, k);
+                    let [bend, slip] = [TILT * wave * phase.cos(), -shear * TILT * phase.sin()];
+                    straight + Strain::from_array([0.0, bend, 0.0, slip, 0.0, 0.0])
+                })
+            })
+            .collect();
+        let energy = |strains: &StageStrains<3>, state: &mut Configuration<3>| {
+            mesh.configure(strains, state).unwrap();
+            let (elastic, load) = mesh.energies(state);
+            elastic + load.unwrap()
+        };
+        let mut state = Configuration::default();
+        let won = -energy(&tilted, &mut state);
+        let won = (won + energy(&strains, &mut state)) / (TILT * TILT);
+        let units =
+            Units { length: self.length, force: state.response[0][0].tangent[(0, 0)] / self.length.powi(2) };
+        let links: Vec<Link> = (0..elements)
+            .map(|i| {
+                let mut element = Condensed::empty();
+                element.fill(&mesh.table, &mesh.element(i, &strains, &state)).unwrap();
+                Link::new(&element.transfer, &state.node_wrench[i], &state.node_wrench[i + 1], &units)
+            })
+            .collect();
+        let tip = Condition::fixing(FREE).with_load(&state.tip_load.wrench, &state.tip_load.tangent, &units);
+        match (Chain { links: &links, base: Condition::fixing(CLAMP), tip }).verdict() {
+            Verdict::Index { unstable, .. } => (unstable, won),
+            verdict => panic!("{verdict:?}"),
+        }
+    }
+}
+
+#[test]
+fn a_neo_hookean_rod_in_long_tension_is_stable_until_its_sections_would_rather_tilt() {
+    // a rigid section keeps its area: beyond ln c = μ/λ volume is dearer than shear, and the tension tilts the sections
+    for (lame, stretch) in
+        [(3e5, 1.4), (3e5, 1.9), (3e5, 2.1), (3e5, 2.5), (4e4, 15.0), (0.0, 15.0), (4e4, 0.97)]
+    {
+        let rod = Tension { mu: 2e5, lame, radius: 0.01, length: 0.3, stretch };
+        let (unstable, won) = rod.found();
+        assert_eq!(unstable, 2 * rod.modes(), "λ = {lame}, c = {stretch}");
+        assert_eq!(won > 0.0, rod.modes() > 0, "λ = {lame}, c = {stretch}: {won}");
     }
 }
