@@ -136,6 +136,11 @@ pub trait Elastic: Send + Sync {
     /// # Errors
     /// As [`CrossSection::respond`].
     fn respond(&self, s: f64, strain: &Strain, request: Request) -> Result<Response>;
+
+    /// Arc lengths where the section changes abruptly: a mesh has a node at each.
+    fn breakpoints(&self) -> Vec<f64> {
+        Vec::new()
+    }
 }
 
 impl<C: CrossSection, M: Send + Sync> Elastic for Body<C, M> {

@@ -10,6 +10,9 @@ pub enum Reason {
     /// The options make no sense.
     #[error("{0}")]
     Options(Error),
+    /// The supports do not hold the rod.
+    #[error("{0}")]
+    Supports(Error),
     /// The rod cannot be evaluated where the solve starts, at its reference shape.
     #[error("the rod cannot be evaluated at its reference shape: {0}")]
     Start(Error),

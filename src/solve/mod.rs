@@ -3,6 +3,7 @@
 //! What lives here drives the elements of [`rod`](crate::rod): when to step, how far, when to stop, and what to tell the user. It
 //! prints nothing; give a solve an observer to watch it.
 
+mod assembly;
 mod cascade;
 mod chain;
 #[allow(dead_code)]
@@ -15,11 +16,14 @@ mod linear;
 mod mesh;
 mod newton;
 mod report;
+mod rigid;
+mod scale;
 mod solution;
 #[allow(dead_code)]
 mod stability;
 mod statics;
 mod sweep;
+mod unknowns;
 mod workspace;
 
 pub use failure::{Failure, Reason};
