@@ -102,7 +102,7 @@ impl<const S: usize> Buffers<S> {
     }
 
     /// The transfers of the elements, joints without a support taken into the element before them.
-    fn condense<B: Elastic>(
+    pub(super) fn condense<B: Elastic>(
         &mut self,
         mesh: &Mesh<'_, B, S>,
         unknowns: &Unknowns<S>,

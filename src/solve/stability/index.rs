@@ -1,4 +1,4 @@
-use nalgebra::Matrix6;
+use nalgebra::{Matrix6, Vector6};
 
 use super::condition::Condition;
 use super::link::Link;
@@ -18,10 +18,22 @@ pub(crate) enum Verdict {
 /// An eigenvalue of the last pivot smaller than this, in units of the rod's bending stiffness, tells nothing.
 const NEUTRAL: f64 = 1e-11;
 
-/// The links of a rod from base to tip, and what holds its ends.
+/// A support at the node behind an element, and the corner there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stop {
+    /// The node, counted from 0 at the base.
+    pub(crate) node: usize,
+    pub(crate) condition: Condition,
+    pub(crate) corner: Link,
+}
+
+/// The links of a rod from base to tip, and what holds it.
 #[derive(Clone, Debug)]
-pub(crate) struct Chain<'a> {
-    pub(crate) links: &'a [Link],
+pub(crate) struct Chain {
+    /// One an element.
+    pub(crate) links: Vec<Link>,
+    /// Supports between the ends, along the rod.
+    pub(crate) stops: Vec<Stop>,
     pub(crate) base: Condition,
     pub(crate) tip: Condition,
 }
@@ -29,15 +41,16 @@ pub(crate) struct Chain<'a> {
 /// What a sweep from base to tip leaves behind.
 #[derive(Clone, Debug)]
 pub(super) struct Swept {
-    /// Modes that the nodes before the tip added.
+    /// Modes that the nodes before the last two added.
     before: usize,
     pub(super) last: Last,
-    /// Planes at the nodes before the tip, and the triangles that lead from one to the next.
+    /// Planes at the starts of the elements.
     pub(super) planes: Vec<Plane>,
-    pub(super) triangles: Vec<Matrix6<f64>>,
+    /// Coefficients in each of these from those in the next.
+    pub(super) back: Vec<Matrix6<f64>>,
 }
 
-impl Chain<'_> {
+impl Chain {
     /// The index under the essential conditions of both ends.
     pub(crate) fn verdict(&self) -> Verdict {
         match self.sweep() {
@@ -59,26 +72,34 @@ impl Chain<'_> {
         }
     }
 
-    /// Displacements ζ of all nodes in the mode of number `mode`, in units of the rod, the largest component 1.
-    pub(crate) fn mode(&self, mode: usize) -> Option<Vec<nalgebra::Vector6<f64>>> {
+    /// (ζ, μ) at the starts of the elements and at the tip in the mode of number `mode`, in units of the rod, the largest displacement 1.
+    pub(crate) fn mode(&self, mode: usize) -> Option<Vec<(Vector6<f64>, Vector6<f64>)>> {
         let swept = self.sweep().ok()?;
-        mode::shape(&swept, mode.checked_sub(swept.before)?)
+        mode::shape(&swept, self.links.last()?, mode.checked_sub(swept.before)?)
     }
 
     fn sweep(&self) -> Result<Swept, usize> {
         let mut plane = self.base.plane();
-        let (mut planes, mut triangles) = (vec![plane], Vec::with_capacity(self.links.len()));
+        let (mut planes, mut back) = (vec![plane], Vec::with_capacity(self.links.len()));
         let mut before = 0;
+        let mut stops = self.stops.iter().peekable();
         let (last_link, links) = self.links.split_last().ok_or(0_usize)?;
         for (element, link) in links.iter().enumerate() {
             let relation = plane.relation().ok_or(element)?;
             before += joining(&relation, link).ok_or(element)?;
             let triangle;
             (plane, triangle) = plane.behind(link);
+            let mut to_before = triangle.try_inverse().ok_or(element)?;
+            if let Some(stop) = stops.next_if(|stop| stop.node == element + 1) {
+                let (held, from_held) = plane.supported(&stop.condition).ok_or(element)?;
+                let (turned, triangle) = held.behind(&stop.corner);
+                to_before *= from_held * triangle.try_inverse().ok_or(element)?;
+                plane = turned;
+            }
             planes.push(plane);
-            triangles.push(triangle);
+            back.push(to_before);
         }
         let last = plane.relation().and_then(|relation| Last::new(&relation, last_link, &self.tip));
-        Ok(Swept { before, last: last.ok_or(links.len())?, planes, triangles })
+        Ok(Swept { before, last: last.ok_or(links.len())?, planes, back })
     }
 }

@@ -1,6 +1,6 @@
 use nalgebra::Matrix6;
 
-use crate::lie::Wrench;
+use crate::lie::{Pose, Wrench};
 use crate::rod::condense::Transfer;
 use crate::rod::element::frame_change;
 
@@ -19,11 +19,6 @@ impl Units {
     pub(super) fn momentum(&self) -> [f64; 6] {
         let moment = self.force * self.length;
         [moment, moment, moment, self.force, self.force, self.force]
-    }
-
-    /// A stiffness, momentum from displacement, in these units.
-    pub(super) fn stiffness(&self, m: &Matrix6<f64>) -> Matrix6<f64> {
-        scaled(m, self.momentum(), self.zeta())
     }
 }
 
@@ -57,7 +52,15 @@ impl Link {
     }
 }
 
-/// ∂μ/∂ζ of a wrench with the tangent D = ∂Λ/∂ζ: D − ½ L(Λ), symmetric for a load that has a potential.
-pub(super) fn momentum_tangent(wrench: &Wrench, tangent: &Matrix6<f64>) -> Matrix6<f64> {
-    tangent - frame_change(wrench) * 0.5
+impl Link {
+    /// A corner: ζ⁺ = Ad_C⁻¹ ζ⁻, μ⁺ = Ad_Cᵀ μ⁻.
+    pub(crate) fn corner(corner: &Pose, units: &Units) -> Self {
+        let (zeta, momentum) = (units.zeta(), units.momentum());
+        Self {
+            zeta_zeta: scaled(&corner.adjoint_inverse().to_matrix(), zeta, zeta),
+            zeta_momentum: Matrix6::zeros(),
+            momentum_zeta: Matrix6::zeros(),
+            momentum_momentum: scaled(&corner.adjoint().to_matrix().transpose(), momentum, momentum),
+        }
+    }
 }

@@ -17,6 +17,7 @@
 //! load of the chain therefore converges with the order of the element, as poses do. An element must be short enough to be stable by itself
 //! when both its ends are held; [`Verdict::Unresolved`] says where it is not.
 
+mod assess;
 mod condition;
 mod eigen;
 mod index;
@@ -25,9 +26,8 @@ mod mode;
 mod pivot;
 mod plane;
 
-pub(crate) use condition::Condition;
+pub(crate) use assess::chain;
 pub(crate) use index::{Chain, Verdict};
-pub(crate) use link::{Link, Units};
 
 #[cfg(test)]
 mod tests;

@@ -1,5 +1,6 @@
 use nalgebra::{Matrix6, SVector};
 
+use super::condition::Condition;
 use super::eigen::Symmetric;
 use super::link::Link;
 
@@ -16,6 +17,48 @@ impl Plane {
         let zeta = link.zeta_zeta * self.zeta + link.zeta_momentum * self.momentum;
         let momentum = link.momentum_zeta * self.zeta + link.momentum_momentum * self.momentum;
         Self { zeta, momentum }.orthonormal()
+    }
+
+    /// What the plane becomes behind a support: displacements that it allows, with what it applies added to their momenta, and its reactions.
+    /// Also the coefficients of the old plane from those of the new.
+    pub(super) fn supported(&self, by: &Condition) -> Option<(Self, Matrix6<f64>)> {
+        let stiffness = 0.5 * (by.stiffness + by.stiffness.transpose());
+        let held = Matrix6::from_fn(|r, c| {
+            if by.fixed[r] { by.directions.column(r).dot(&self.zeta.column(c)) } else { 0.0 }
+        });
+        let gram = held.tr_mul(&held);
+        let eigen = Symmetric::part_of(6, |r, c| gram[(r, c)]).eigen();
+        let kept = by.fixed.iter().filter(|fixed| !**fixed).count();
+        let (mut zeta, mut momentum, mut from) = (Matrix6::zeros(), Matrix6::zeros(), Matrix6::zeros());
+        // combinations that the support does not hold, and of these the ones that are more than a reaction of it
+        let mut found = 0;
+        for k in 0..6 {
+            let a = nalgebra::Vector6::from_fn(|r, _| eigen.vector[r][k]);
+            let moved = self.zeta * a;
+            let applied = self.momentum * a + stiffness * moved;
+            let (mut z, mut m) = (moved, applied);
+            for c in (0..6).filter(|&c| by.fixed[c]) {
+                let d = by.directions.column(c);
+                z -= d * d.dot(&moved);
+                m -= d * d.dot(&applied);
+            }
+            if found < kept && z.norm() + m.norm() > REACTION {
+                zeta.set_column(found, &z);
+                momentum.set_column(found, &m);
+                from.set_column(found, &a);
+                found += 1;
+            }
+        }
+        for c in (0..6).filter(|&c| by.fixed[c]) {
+            if found == 6 {
+                break;
+            }
+            momentum.set_column(found, &by.directions.column(c));
+            found += 1;
+        }
+        let (plane, triangle) = Self { zeta, momentum }.orthonormal();
+        let back = from * triangle.try_inverse()?;
+        (found == 6 && plane.zeta.iter().all(|v| v.is_finite())).then_some((plane, back))
     }
 
     /// An orthonormal basis of the same plane, by Gram and Schmidt's process done twice, and R with (old columns) = (new columns) R.
@@ -66,6 +109,9 @@ impl Plane {
         matrix.iter().all(|v| v.is_finite()).then_some(Relation { stiff: cut, basis, matrix, inverse })
     }
 }
+
+/// A combination smaller than this, of unit ones, is but a reaction of a support.
+const REACTION: f64 = 1e-9;
 
 /// cos² of a direction above which it is not taken as stiff.
 const MOST_STIFF: f64 = 0.98;

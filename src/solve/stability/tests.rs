@@ -2,24 +2,46 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Matrix6, Vector3, vector};
+use nalgebra::vector;
 
 use super::*;
+use crate::body::Elastic;
 use crate::lie::{Strain, Wrench};
-use crate::load::{DeadWrench, TipLoad};
+use crate::load::DeadWrench;
 use crate::material::NeoHookean;
-use crate::rod::condense::Condensed;
+use crate::rod::{Freedom, Support};
 use crate::section::{Circle, Section, Stiffness};
 use crate::solve::continuation::illinois;
 use crate::solve::equilibrium::Configuration;
-use crate::solve::mesh::{Mesh, StageStrains};
+use crate::solve::linear::Buffers;
+use crate::solve::mesh::Mesh;
+use crate::solve::scale::Scale;
+use crate::solve::unknowns::{StageStrains, Unknowns};
 use crate::{Body, Pose, Rod};
 
-const CLAMP: [bool; 6] = [true; 6];
-const FREE: [bool; 6] = [false; 6];
-/// Held sideways, free along the rod and to turn about the axes of the section; held against spinning at one end only.
-const PIN: [bool; 6] = [false, false, true, true, true, true];
-const ROLLER: [bool; 6] = [false, false, false, true, true, false];
+/// How the ends of a column are held; the base is at the origin, the tip at a height that a load or a support gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Ends {
+    ClampedFree,
+    Pinned,
+    Clamped,
+    /// Clamped, but free to slide along the axis.
+    ClampedSliding,
+}
+
+/// The chain of a rod whose strain is the same everywhere, under the wrench `tip` at its tip.
+fn chain_of<B: Elastic, const S: usize>(rod: &Rod<B>, elements: usize, strain: Strain, tip: Wrench) -> Chain {
+    let mesh = Mesh::<_, S>::uniform(rod, elements);
+    let n = mesh.elements();
+    let unknowns = Unknowns { strains: vec![[strain; S]; n], tip, ..Unknowns::at_rest(&mesh) };
+    let mut state = Configuration::default();
+    mesh.configure(&unknowns, &mut state).unwrap();
+    let (length, tangent) = (rod.body().length(), state.response[0][0].tangent);
+    let scale = Scale { length, force: tangent[(0, 0)].max(tangent[(1, 1)]) / length.powi(2) };
+    let mut buffers = Buffers::<S>::default();
+    buffers.condense(&mesh, &unknowns, &state).unwrap();
+    chain(&mesh, &state, &buffers.condensed, &scale).unwrap()
+}
 
 /// A straight rod under a constant wrench (moment and force along its axis).
 struct Straight {
@@ -31,43 +53,32 @@ struct Straight {
 }
 
 impl Straight {
-    fn chain<const S: usize>(&self, base: [bool; 6], tip: [bool; 6], mut check: impl FnMut(&Chain<'_>)) {
+    fn chain<const S: usize>(&self, ends: Ends) -> Chain {
         let body = Body::new(self.length, Stiffness::diagonal(self.stiffness).unwrap()).unwrap();
         let wrench = Wrench::new(vector![0.0, 0.0, self.twist], vector![0.0, 0.0, self.force]);
-        let load = DeadWrench::new(wrench.moment, wrench.force).unwrap();
-        let rod = Rod::clamped(body, Pose::identity()).with_tip_load(load);
-        let mesh = Mesh::<_, S>::uniform(&rod, self.elements);
         let (k, w) = (self.stiffness, wrench.to_array());
         let strain = Strain::from_array(std::array::from_fn(|i| w[i] / k[i]));
-        let strains: StageStrains<S> = vec![[strain; S]; self.elements];
-        let mut state = Configuration::default();
-        mesh.configure(&strains, &mut state).unwrap();
-        let units = Units { length: self.length, force: k[0].max(k[1]) / self.length.powi(2) };
-        let links: Vec<Link> = (0..self.elements)
-            .map(|i| {
-                let mut element = Condensed::empty();
-                element.fill(&mesh.table, &mesh.element(i, &strains, &state)).unwrap();
-                Link::new(&element.transfer, &state.node_wrench[i], &state.node_wrench[i + 1], &units)
-            })
-            .collect();
-        // what of a load acts on a fixed component does nothing
-        let at_tip = load.at(&state.node_pose[self.elements]).unwrap();
-        let force = Wrench::new(Vector3::zeros(), at_tip.wrench.force);
-        let mut tangent = Matrix6::zeros();
-        tangent.fixed_view_mut::<3, 3>(3, 0).copy_from(&at_tip.tangent.fixed_view::<3, 3>(3, 0));
-        let tip = Condition::fixing(tip).with_load(&force, &tangent, &units);
-        check(&Chain { links: &links, base: Condition::fixing(base), tip });
+        let base = Support::clamped(Pose::identity());
+        let height = self.length * (1.0 + strain.linear.z);
+        let turn = crate::lie::so3::exp(&vector![0.0, 0.0, strain.angular.z * self.length]);
+        let tip = Support::clamped(Pose::new(turn, vector![0.0, 0.0, height]));
+        let push = DeadWrench::force(wrench.force).unwrap();
+        let pinned = Support::pinned(Pose::identity()).holding(Freedom::RotationZ, 0.0).unwrap();
+        let roller = tip.releasing([Freedom::RotationX, Freedom::RotationY, Freedom::RotationZ, Freedom::Z]);
+        let rod = match ends {
+            Ends::ClampedFree => Rod::between(body, base, Support::free()).with_tip_load(push),
+            Ends::Pinned => Rod::between(body, pinned, roller).with_tip_load(push),
+            Ends::Clamped => Rod::between(body, base, tip),
+            Ends::ClampedSliding => Rod::between(body, base, tip.releasing([Freedom::Z])).with_tip_load(push),
+        };
+        chain_of::<_, S>(&rod, self.elements, strain, wrench)
     }
 
-    fn index<const S: usize>(&self, base: [bool; 6], tip: [bool; 6]) -> usize {
-        let mut index = 0;
-        self.chain::<S>(base, tip, |chain| {
-            index = match chain.verdict() {
-                Verdict::Index { unstable, .. } => unstable,
-                verdict => panic!("{verdict:?}"),
-            };
-        });
-        index
+    fn index<const S: usize>(&self, ends: Ends) -> usize {
+        match self.chain::<S>(ends).verdict() {
+            Verdict::Index { unstable, .. } => unstable,
+            verdict => panic!("{verdict:?}"),
+        }
     }
 }
 
@@ -86,10 +97,10 @@ fn slenderness(c: &Straight) -> f64 {
 }
 
 /// Critical (kL) of the modes of a plane, ascending.
-fn criticals(kind: &str, n: usize) -> Vec<f64> {
-    match kind {
-        "clamped free" => (0..n).map(|i| (i as f64 + 0.5) * PI).collect(),
-        "pinned" => (0..n).map(|i| (i as f64 + 1.0) * PI).collect(),
+fn criticals(ends: Ends, n: usize) -> Vec<f64> {
+    match ends {
+        Ends::ClampedFree => (0..n).map(|i| (i as f64 + 0.5) * PI).collect(),
+        Ends::Pinned => (0..n).map(|i| (i as f64 + 1.0) * PI).collect(),
         _ => (0..n)
             .map(|i| if i % 2 == 0 { (i as f64 + 2.0) * PI } else { 2.0 * tangent_root(i.div_ceil(2)) })
             .collect(),
@@ -108,15 +119,13 @@ fn tangent_root(i: usize) -> f64 {
 
 #[test]
 fn the_index_of_a_column_counts_euler_s_modes_twice() {
-    for (kind, base, tip) in
-        [("clamped free", CLAMP, FREE), ("pinned", PIN, ROLLER), ("clamped", CLAMP, CLAMP)]
-    {
+    for ends in [Ends::ClampedFree, Ends::Pinned, Ends::Clamped] {
         for force in [-0.01, 1e-4, 1.3e-3, 5.5e-3, 0.02, 0.05, 0.13, 0.31] {
             let rod = column(1.0, 0.005, force, 24);
-            let critical = criticals(kind, 12);
+            let critical = criticals(ends, 12);
             let expected = 2 * critical.iter().filter(|k| *k * *k < slenderness(&rod)).count();
-            assert_eq!(rod.index::<2>(base, tip), expected, "{kind} at {force}, order 4");
-            assert_eq!(rod.index::<3>(base, tip), expected, "{kind} at {force}, order 6");
+            assert_eq!(rod.index::<2>(ends), expected, "{ends:?} at {force}, order 4");
+            assert_eq!(rod.index::<3>(ends), expected, "{ends:?} at {force}, order 6");
         }
     }
 }
@@ -125,8 +134,8 @@ fn the_index_of_a_column_counts_euler_s_modes_twice() {
 fn a_clamped_rod_shortened_by_a_tenth_has_an_unstable_mode_for_each_euler_load_it_passed() {
     let (r, e) = (0.02_f64, 1e6);
     let rod = column(1.0, r, 0.1 * e * PI * r * r, 20);
-    let expected = criticals("clamped", 40).iter().filter(|k| *k * *k < slenderness(&rod)).count();
-    assert_eq!(rod.index::<3>(CLAMP, CLAMP), 2 * expected);
+    let expected = criticals(Ends::Clamped, 40).iter().filter(|k| *k * *k < slenderness(&rod)).count();
+    assert_eq!(rod.index::<3>(Ends::Clamped), 2 * expected);
     assert!(expected > 5);
 }
 
@@ -134,26 +143,23 @@ fn a_clamped_rod_shortened_by_a_tenth_has_an_unstable_mode_for_each_euler_load_i
 fn a_twisted_clamped_rod_buckles_at_greenhill_s_moment() {
     // tan(ML/4EI·…): with both ends held against everything but extension, M L/EI = 2 · 4.4934 (Greenhill 1883; Antman and Kenney 1981)
     let critical = 2.0 * tangent_root(1);
-    let slides = [true, true, true, true, true, false];
     for (factor, expected) in [(0.999, 0), (1.001, 1)] {
         let mut rod = column(1.0, 0.005, 0.0, 24);
         rod.twist = factor * critical * rod.stiffness[0];
-        let found = rod.index::<3>(CLAMP, slides);
+        let found = rod.index::<3>(Ends::ClampedSliding);
         assert!(if expected == 0 { found == 0 } else { found > 0 }, "{factor}: {found}");
     }
 }
 
 /// Where the margin of the first mode vanishes, by the Illinois rule about a closed form.
-fn critical_load(mut rod: Straight, base: [bool; 6], tip: [bool; 6], about: f64) -> f64 {
+fn critical_load(mut rod: Straight, ends: Ends, about: f64) -> f64 {
     let mut margin = |force: f64| {
-        let mut found = None;
         rod.force = -force;
-        rod.chain::<3>(base, tip, |chain| found = chain.margin(0));
-        found
+        rod.chain::<3>(ends).margin(0)
     };
-    let ends = [0.9 * about, 1.1 * about].map(|force| (force, margin(force).unwrap()));
-    assert!(ends[0].1 > 0.0 && ends[1].1 < 0.0, "{ends:?}");
-    illinois(ends, 0.0, margin).unwrap()
+    let bracket = [0.9 * about, 1.1 * about].map(|force| (force, margin(force).unwrap()));
+    assert!(bracket[0].1 > 0.0 && bracket[1].1 < 0.0, "{bracket:?}");
+    illinois(bracket, 0.0, margin).unwrap()
 }
 
 #[test]
@@ -165,8 +171,9 @@ fn buckling_loads_are_those_of_the_linearised_rod() {
         (0.6, 0.05, [479.70470304403176, 33.36055890629672, 130.25537912080944]),
         (1.0, 0.005, [0.019369369236823822, 0.0012111453292087766, 0.004844133184028474]),
     ] {
-        for (base, tip, reference) in [(CLAMP, CLAMP, clamped), (CLAMP, FREE, free), (PIN, ROLLER, pinned)] {
-            let found = critical_load(column(length, radius, 0.0, 40), base, tip, reference);
+        for (ends, reference) in [(Ends::Clamped, clamped), (Ends::ClampedFree, free), (Ends::Pinned, pinned)]
+        {
+            let found = critical_load(column(length, radius, 0.0, 40), ends, reference);
             let error = (found / reference - 1.0).abs();
             assert!(error < tolerance, "{found} {reference} {error:e} {tolerance:e}");
         }
@@ -177,18 +184,16 @@ fn buckling_loads_are_those_of_the_linearised_rod() {
 fn the_mode_of_a_clamped_rod_is_euler_s() {
     // 1 − cos(2πs/L) sideways, in some direction; found beside the critical load, where the mode is off by the distance from it
     let rod = column(1.0, 0.005, 0.019369369236823822 * (1.0 + 1e-7), 20);
-    rod.chain::<3>(CLAMP, CLAMP, |chain| {
-        let mode = chain.mode(0).unwrap();
-        let middle = mode[10];
-        let size = middle[3].hypot(middle[4]);
-        for (i, node) in mode.iter().enumerate() {
-            let shape = 0.5 * (1.0 - (2.0 * PI * i as f64 / 20.0).cos());
-            for r in 3..5 {
-                assert!((node[r] - middle[r] * shape).abs() < 1e-6 * size, "node {i}");
-            }
-            assert!(node[5].abs() < 1e-6 * size && node[2].abs() < 1e-6 * size);
+    let mode = rod.chain::<3>(Ends::Clamped).mode(0).unwrap();
+    let (middle, _) = mode[10];
+    let size = middle[3].hypot(middle[4]);
+    for (i, (node, _)) in mode.iter().enumerate() {
+        let shape = 0.5 * (1.0 - (2.0 * PI * i as f64 / 20.0).cos());
+        for r in 3..5 {
+            assert!((node[r] - middle[r] * shape).abs() < 1e-6 * size, "node {i}");
         }
-    });
+        assert!(node[5].abs() < 1e-6 * size && node[2].abs() < 1e-6 * size);
+    }
 }
 
 /// A clamped neo-Hookean rod of uniform section, stretched to c by a dead force F; μ, λ, A and I.
@@ -244,25 +249,15 @@ impl Tension {
                 })
             })
             .collect();
-        let energy = |strains: &StageStrains<3>, state: &mut Configuration<3>| {
-            mesh.configure(strains, state).unwrap();
-            let (elastic, load) = mesh.energies(state);
+        let energy = |strains: &StageStrains<3>| {
+            let mut state = Configuration::default();
+            let unknowns = Unknowns { strains: strains.clone(), ..Unknowns::at_rest(&mesh) };
+            mesh.configure(&unknowns, &mut state).unwrap();
+            let (elastic, load) = mesh.energies(&state);
             elastic + load.unwrap()
         };
-        let mut state = Configuration::default();
-        let won = -energy(&tilted, &mut state);
-        let won = (won + energy(&strains, &mut state)) / (TILT * TILT);
-        let units =
-            Units { length: self.length, force: state.response[0][0].tangent[(0, 0)] / self.length.powi(2) };
-        let links: Vec<Link> = (0..elements)
-            .map(|i| {
-                let mut element = Condensed::empty();
-                element.fill(&mesh.table, &mesh.element(i, &strains, &state)).unwrap();
-                Link::new(&element.transfer, &state.node_wrench[i], &state.node_wrench[i + 1], &units)
-            })
-            .collect();
-        let tip = Condition::fixing(FREE).with_load(&state.tip_load.wrench, &state.tip_load.tangent, &units);
-        match (Chain { links: &links, base: Condition::fixing(CLAMP), tip }).verdict() {
+        let won = (energy(&strains) - energy(&tilted)) / (TILT * TILT);
+        match chain_of::<_, 3>(&rod, elements, straight, Wrench::zero()).verdict() {
             Verdict::Index { unstable, .. } => (unstable, won),
             verdict => panic!("{verdict:?}"),
         }
@@ -279,5 +274,27 @@ fn a_neo_hookean_rod_in_long_tension_is_stable_until_its_sections_would_rather_t
         let (unstable, won) = rod.found();
         assert_eq!(unstable, 2 * rod.modes(), "λ = {lame}, c = {stretch}");
         assert_eq!(won > 0.0, rod.modes() > 0, "λ = {lame}, c = {stretch}: {won}");
+    }
+}
+
+#[test]
+fn supports_in_the_middle_raise_the_load_to_that_of_a_bay() {
+    // a pinned column held sideways at its middle buckles as one of half the length, (2π)², in two ways; one more at (2 · 4.4934)² · … from
+    // the clamped-pinned bays: kL/2 = 4.4934, also double
+    for (factor, expected) in [(0.98, 0), (1.02, 2)] {
+        let (ei, length) = (1.0, 1.0);
+        let force = factor * (2.0 * PI).powi(2) * ei;
+        let body = Body::new(length, Stiffness::diagonal([ei, ei, 1.0, 1e9, 1e9, 1e9]).unwrap()).unwrap();
+        let pinned = Support::pinned(Pose::identity()).holding(Freedom::RotationZ, 0.0).unwrap();
+        let roller = Support::free().holding(Freedom::X, 0.0).unwrap().holding(Freedom::Y, 0.0).unwrap();
+        let push = DeadWrench::force(vector![0.0, 0.0, -force]).unwrap();
+        let rod = Rod::between(body, pinned, roller).with_tip_load(push).with_support(0.5, roller).unwrap();
+        let wrench = Wrench::new(vector![0.0, 0.0, 0.0], vector![0.0, 0.0, -force]);
+        let strain = Strain::from_array([0.0, 0.0, 0.0, 0.0, 0.0, -force / 1e9]);
+        let verdict = chain_of::<_, 3>(&rod, 16, strain, wrench).verdict();
+        assert!(
+            matches!(verdict, Verdict::Index { unstable, .. } if unstable == expected),
+            "{factor}: {verdict:?}"
+        );
     }
 }
