@@ -6,20 +6,20 @@
 mod assembly;
 mod cascade;
 mod chain;
-#[allow(dead_code)]
 mod continuation;
 mod describe;
 mod equilibrium;
 mod estimate;
 mod failure;
+mod globalise;
 mod linear;
 mod mesh;
 mod newton;
+mod path;
 mod report;
 mod rigid;
 mod scale;
 mod solution;
-#[allow(dead_code)]
 mod stability;
 mod statics;
 mod sweep;
@@ -27,7 +27,8 @@ mod unknowns;
 mod workspace;
 
 pub use failure::{Failure, Reason};
-pub use report::{ErrorEstimate, Iteration, Report};
+pub use path::{Buckling, EquilibriumPath, PathEnd, PathEvent, PathEventKind, PathOptions, PathState};
+pub use report::{ErrorEstimate, Iteration, Report, Rung, Stability};
 pub use solution::{Node, StaticSolution};
 pub use statics::{Order, Statics};
 pub use workspace::Workspace;

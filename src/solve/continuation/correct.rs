@@ -98,15 +98,10 @@ pub(super) fn place<F: Family>(
     Ok(oriented(family, state, factor, &v, onward))
 }
 
-/// The point with its tangent along growing λ, or along falling λ.
-pub(super) fn start<F: Family>(
-    family: &mut F,
-    state: F::State,
-    factor: f64,
-    upward: bool,
-) -> Result<Place<F>> {
+/// The point with its tangent along growing λ.
+pub(super) fn start<F: Family>(family: &mut F, state: F::State, factor: f64) -> Result<Place<F>> {
     let v = family.tangents(&state, factor)?.per_factor;
-    Ok(oriented(family, state, factor, &v, if upward { 1.0 } else { -1.0 }))
+    Ok(oriented(family, state, factor, &v, 1.0))
 }
 
 fn oriented<F: Family>(family: &F, state: F::State, factor: f64, v: &F::Step, onward: f64) -> Place<F> {

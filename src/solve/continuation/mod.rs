@@ -10,8 +10,9 @@ mod locate;
 mod trace;
 
 pub(crate) use family::{Family, Tangents};
+#[cfg(test)]
 pub(crate) use locate::illinois;
-pub(crate) use trace::{Along, End, Event, EventKind, PathPoint, Stride, Traced, trace, trace_branch};
+pub(crate) use trace::{End, Event, EventKind, PathPoint, Stride, Traced, trace, trace_branch};
 
 #[cfg(test)]
 mod tests;

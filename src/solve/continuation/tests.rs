@@ -60,8 +60,7 @@ fn events<S>(traced: &Traced<S>, kind: EventKind) -> Vec<&Event<S>> {
 fn a_path_snaps_through_both_limit_points_of_a_cubic() {
     let stride = Stride { factors: [-10.0, 2.0], ..Stride::default() };
     let start = -1.3247179572447460; // x³ − x = −1
-    let traced =
-        trace(&mut Potential(cubic), at(&[start]), -1.0, Along::Growing, &stride, |_| false).unwrap();
+    let traced = trace(&mut Potential(cubic), at(&[start]), -1.0, &stride, |_| false).unwrap();
     let limits = events(&traced, EventKind::LimitPoint);
     let [first, second] = limits[..] else { panic!("{} limit points", limits.len()) };
     // the factor is stationary there: the slope of 1e-7 at which the search may end is 1e-14 in λ, rounding the rest
@@ -93,8 +92,7 @@ fn a_path_follows_snap_back_where_load_and_displacement_both_turn() {
     let y0 = x0 + (x0.powi(3) - x0) / k;
     let factor = y0 + k * (y0 - x0) / c;
     let stride = Stride { factors: [-1e3, -factor], longest: 0.2, ..Stride::default() };
-    let traced =
-        trace(&mut Potential(snap_back), at(&[x0, y0]), factor, Along::Growing, &stride, |_| false).unwrap();
+    let traced = trace(&mut Potential(snap_back), at(&[x0, y0]), factor, &stride, |_| false).unwrap();
     // dλ/dx = 0: with y = x + (x³ − x)/k and λ = y + (x³ − x)/c, 1 + (3x² − 1)(1/k + 1/c) = 0
     let x = ((1.0 - 1.0 / (1.0 / k + 1.0 / c)) / 3.0_f64).sqrt();
     let limits = events(&traced, EventKind::LimitPoint);
@@ -118,7 +116,7 @@ fn square_column(p: &Point, factor: f64) -> (Point, Point, DMatrix<f64>) {
 fn a_double_bifurcation_is_found_and_its_branch_followed() {
     let mut family = Potential(square_column);
     let stride = Stride { factors: [-1.0, 1.5], ..Stride::default() };
-    let traced = trace(&mut family, at(&[0.0, 0.0, 0.0]), 0.0, Along::Growing, &stride, |_| false).unwrap();
+    let traced = trace(&mut family, at(&[0.0, 0.0, 0.0]), 0.0, &stride, |_| false).unwrap();
     let found = events(&traced, EventKind::Bifurcation);
     let [bifurcation] = found[..] else { panic!("{} bifurcations", found.len()) };
     // bisection to 1e-13 of a step of one half
@@ -141,7 +139,7 @@ fn a_walk_that_cannot_go_on_says_so() {
         (at(&[residual]), at(&[-1.0]), DMatrix::from_element(1, 1, 1.0))
     }
     let stride = Stride { factors: [-0.5, 2.0], ..Stride::default() };
-    let traced = trace(&mut Potential(wall), at(&[0.6]), 0.6, Along::Growing, &stride, |_| false).unwrap();
+    let traced = trace(&mut Potential(wall), at(&[0.6]), 0.6, &stride, |_| false).unwrap();
     assert!(matches!(traced.end, End::Stuck(Error::NoConvergence { .. })), "{:?}", traced.end);
     // the last step is at most twice the shortest
     let last = traced.points.last().unwrap();

@@ -85,13 +85,6 @@ pub(crate) struct Traced<S> {
     pub(crate) end: End,
 }
 
-/// Which way a path is walked from its first point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Along {
-    Growing,
-    Falling,
-}
-
 /// Iterations a corrector should take; steps are lengthened or shortened for it.
 const WANTED: f64 = 4.0;
 
@@ -101,7 +94,7 @@ const LEAST_COSINE: f64 = 0.9;
 /// A slope this small is a limit point.
 const LEVEL: f64 = 1e-7;
 
-/// Walks the path through an equilibrium. `enough` sees every point.
+/// Walks the path through an equilibrium, the way of growing λ. `enough` sees every point.
 ///
 /// # Errors
 /// If the linear system of the first point has no answer.
@@ -109,11 +102,10 @@ pub(crate) fn trace<F: Family>(
     family: &mut F,
     state: F::State,
     factor: f64,
-    along: Along,
     stride: &Stride,
     enough: impl FnMut(&PathPoint<F::State>) -> bool,
 ) -> Result<Traced<F::State>> {
-    let first = start(family, state, factor, along == Along::Growing)?;
+    let first = start(family, state, factor)?;
     Ok(Walk::new(family, stride, enough).from(first))
 }
 

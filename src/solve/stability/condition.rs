@@ -17,11 +17,6 @@ pub(crate) struct Condition {
 }
 
 impl Condition {
-    /// Components (angular, linear) of the frame of the section that cannot move, and nothing else.
-    pub(crate) fn fixing(fixed: [bool; 6]) -> Self {
-        Self { directions: Matrix6::identity(), fixed, stiffness: Matrix6::zeros() }
-    }
-
     /// A support and the loads on its section, linearised where they apply the wrench `applied` to the section.
     ///
     /// With t_j = ∂ζ/∂χ_j, what can move is spanned by the t_j of the freedoms not held, and t_jᵀ μ = −(A_j + ½ t_jᵀ L) ζ, A_j the row of the
