@@ -49,11 +49,16 @@ pub struct GradientResponse<L> {
 impl<L: Lane> GradientSite<L> {
     #[inline(always)]
     fn only(&self, i: usize) -> Self {
+        let ([x, y], [dx, dy]) = (self.position, self.position_rate);
+        let mut h = self.h;
+        for c in 0..9 {
+            h[c] = h[c].spread(i);
+        }
         Self {
-            position: self.position.map(|v| v.spread(i)),
-            position_rate: self.position_rate.map(|v| v.spread(i)),
+            position: [x.spread(i), y.spread(i)],
+            position_rate: [dx.spread(i), dy.spread(i)],
             s: self.s.spread(i),
-            h: self.h.map(|v| v.spread(i)),
+            h,
         }
     }
 
@@ -66,8 +71,11 @@ impl<L: Lane> GradientSite<L> {
     #[inline(always)]
     fn moving_point(&self) -> Point<Jet<L, 4, 10>> {
         let ([x, y], [dx, dy]) = (self.position, self.position_rate);
-        let along = |value, rate| Jet::constant(value).with_slope(3, rate);
-        Point { x: along(x, dx), y: along(y, dy), s: along(self.s, L::splat(1.0)) }
+        Point {
+            x: Jet::constant(x).with_slope(3, dx),
+            y: Jet::constant(y).with_slope(3, dy),
+            s: Jet::constant(self.s).with_slope(3, L::splat(1.0)),
+        }
     }
 }
 
@@ -130,7 +138,10 @@ impl<L: Lane> Kinematics<L> {
     #[inline(always)]
     fn of(h: &[L; 9]) -> Self {
         let (two, half) = (L::splat(2.0), L::splat(0.5));
-        let cofactor = cross(h, h).map(|v| v * half);
+        let mut cofactor = cross(h, h);
+        for c in 0..9 {
+            cofactor[c] = cofactor[c] * half;
+        }
         let trace = h[0] + h[4] + h[8];
         let second = cofactor[0] + cofactor[4] + cofactor[8];
         let det = h[0] * cofactor[0] + h[1] * cofactor[1] + h[2] * cofactor[2];
@@ -167,10 +178,10 @@ impl<L: Lane> Kinematics<L> {
             difference[c] = k[c] - h[c];
             f[c] = h[c] + identity[c];
         }
-        let first = difference.map(|v| -(v * two));
-        let second = cross(&f, &difference).map(|v| v * two);
-        let mut third = *k;
+        let (mut first, mut second, mut third) = (*k, cross(&f, &difference), *k);
         for c in 0..9 {
+            first[c] = -(difference[c] * two);
+            second[c] = second[c] * two;
             third[c] = k[c] + identity[c];
         }
         [first, second, third]
@@ -248,7 +259,11 @@ fn chain<L: Lane>(
     out.stress = combine(first, &slopes);
     let [u_1, u_2, u_3] = *first;
     let [s_11, s_12, s_13, s_22, s_23, s_33] = *second;
-    let rows = [[s_11, s_12, s_13], [s_12, s_22, s_23], [s_13, s_23, s_33]].map(|row| combine(&row, &slopes));
+    let rows = [
+        combine(&[s_11, s_12, s_13], &slopes),
+        combine(&[s_12, s_22, s_23], &slopes),
+        combine(&[s_13, s_23, s_33], &slopes),
+    ];
     for i in 0..9 {
         for k in i..9 {
             let sum = slopes[0][i] * rows[0][k] + slopes[1][i] * rows[1][k];
@@ -261,8 +276,11 @@ fn chain<L: Lane>(
         f[4 * i] = f[4 * i] + one;
     }
     add_cross(&f, u_3 - two * u_1 - L::splat(4.0) * u_2, &mut out.stiffness);
-    if (0..L::LANES).all(|i| u_2.lane(i) == 0.0) {
-        return out; // the law does without I₂
+    let zero = L::splat(0.0);
+    // |u₂| as 0 or 1 in each lane: a law that does without I₂ skips the rest
+    let used = u_2.select_lt(zero, one, zero.select_lt(u_2, one, zero));
+    if used.sum() == 0.0 {
+        return out;
     }
     add_cross(&slopes[2], two * u_2, &mut out.stiffness);
     // (F×)² column by column: F × (F × E) for E the unit matrices, of which only the upper triangle is kept
@@ -395,31 +413,31 @@ impl GradientState {
     #[inline(always)]
     fn store<L: Lane, O: Level>(&mut self, q: usize, lane: Option<usize>, response: &GradientResponse<L>) {
         let n = self.energy.len();
-        let last = L::LANES.min(n - q);
-        let write = |to: &mut [f64], value: L| match lane {
-            Some(lane) => to[lane] = value.lane(lane),
-            None => {
-                for i in 0..last {
-                    to[i] = value.lane(i);
-                }
-            }
-        };
-        write(&mut self.energy[q..], response.energy);
+        write(&mut self.energy[q..], lane, response.energy);
         if O::REQUEST >= Request::Wrench {
             for c in 0..9 {
-                write(&mut self.stress[c * n + q..], response.stress[c]);
+                write(&mut self.stress[c * n + q..(c + 1) * n], lane, response.stress[c]);
             }
         }
         if O::REQUEST >= Request::Tangent {
             for c in 0..STIFFNESS {
-                write(&mut self.stiffness[c * n + q..], response.stiffness[c]);
+                write(&mut self.stiffness[c * n + q..(c + 1) * n], lane, response.stiffness[c]);
             }
         }
         if O::REQUEST >= Request::Rate {
             for c in 0..9 {
-                write(&mut self.stress_rate[c * n + q..], response.stress_rate[c]);
+                write(&mut self.stress_rate[c * n + q..(c + 1) * n], lane, response.stress_rate[c]);
             }
         }
+    }
+}
+
+/// A block, or one lane of it, written to the points it belongs to.
+#[inline(always)]
+fn write<L: Lane>(to: &mut [f64], lane: Option<usize>, value: L) {
+    match lane {
+        Some(lane) => to[lane] = value.lane(lane),
+        None => value.store(to),
     }
 }
 
@@ -466,15 +484,19 @@ impl<M: Local, O: Level> Kernel for GradientKernel<'_, '_, M, O> {
 #[inline(always)]
 fn load<L: Lane, O: Level>(batch: &GradientBatch<'_>, q: usize) -> GradientSite<L> {
     let n = batch.points.len();
-    let get = |values: &[f64]| L::load_or(&values[q..], values[q]);
     let mut position_rate = [L::splat(0.0); 2];
     if let (true, Some(rates)) = (O::REQUEST >= Request::Rate, &batch.points.rates) {
-        position_rate = [get(&rates.x), get(&rates.y)];
+        position_rate = [load_from(&rates.x, q), load_from(&rates.y, q)];
     }
-    GradientSite {
-        position: [get(&batch.points.x), get(&batch.points.y)],
-        position_rate,
-        s: L::splat(batch.s),
-        h: std::array::from_fn(|c| get(&batch.h[c * n..(c + 1) * n])),
+    let mut h = [L::splat(0.0); 9];
+    for c in 0..9 {
+        h[c] = load_from(&batch.h[c * n..(c + 1) * n], q);
     }
+    let position = [load_from(&batch.points.x, q), load_from(&batch.points.y, q)];
+    GradientSite { position, position_rate, s: L::splat(batch.s), h }
+}
+
+#[inline(always)]
+fn load_from<L: Lane>(values: &[f64], q: usize) -> L {
+    L::load_or(&values[q..], values[q])
 }

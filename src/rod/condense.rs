@@ -120,6 +120,13 @@ impl<const S: usize> Condensed<S> {
         }
     }
 
+    /// δξ at the stages by a displacement and a change of wrench at the element's first node alone.
+    pub(crate) fn strain_of_node(&self, zeta: &Vector6<f64>, wrench: &Vector6<f64>) -> [Strain; S] {
+        let nothing = self.strain_step(&Vector6::zeros(), &Vector6::zeros());
+        let all = self.strain_step(zeta, wrench);
+        std::array::from_fn(|k| all[k] - nothing[k])
+    }
+
     /// Shear and extension first, a 3×3 inverse at every stage, then bending and torsion of all stages together. `None` where that is not
     /// safe or not possible.
     ///
@@ -150,13 +157,13 @@ impl<const S: usize> Condensed<S> {
         } else {
             self.transfer.wrench_from_zeta = Matrix6::zeros();
         }
-        let [angular, linear] = system.solve::<SOFT>(&flexibility, &fixed)?;
+        system.solve::<SOFT>(&flexibility, &fixed)?;
         for k in 0..S {
-            self.strain[k].fixed_view_mut::<3, C>(0, 0).copy_from(&angular[k]);
-            self.strain[k].fixed_view_mut::<3, C>(3, 0).copy_from(&linear[k]);
+            self.strain[k].fixed_view_mut::<3, C>(0, 0).copy_from(&system.angular_rhs[k]);
+            self.strain[k].fixed_view_mut::<3, C>(3, 0).copy_from(&system.linear_rhs[k]);
         }
         self.loaded = C == COLUMNS;
-        self.transfer_from::<C, SOFT>(state, &variations.end, &ends, &angular, &linear);
+        self.transfer_from::<C, SOFT>(state, &variations.end, &ends, &system.angular_rhs, &system.linear_rhs);
         Some(())
     }
 
@@ -317,45 +324,38 @@ impl<const S: usize, const C: usize> StageSystem<S, C> {
         system
     }
 
-    /// (δω, δν) of all stages.
+    /// Puts (δω, δν) of all stages where the right-hand sides are.
     #[inline(always)]
-    fn solve<const SOFT: bool>(
-        &self,
-        flexibility: &[Matrix3<f64>; S],
-        fixed: &[bool; 6],
-    ) -> Option<[[SMatrix<f64, 3, C>; S]; 2]> {
-        let curvatures = |matrix: &[[Matrix3<f64>; S]; S], rhs: &[SMatrix<f64, 3, C>; S]| {
-            if fixed[..3] == [false; 3] {
-                solve_rows(matrix, rhs)
-            } else {
-                solve_free_rows(matrix, rhs, fixed)
-            }
-        };
-        if !SOFT {
-            let angular = curvatures(&self.angular_angular, &self.angular_rhs)?;
-            return Some([angular, [SMatrix::zeros(); S]]);
-        }
-        let mut matrix = [[Matrix3::zeros(); S]; S];
-        let mut rhs = self.angular_rhs;
-        for k in 0..S {
-            matrix[k] = self.angular_angular[k];
-            for l in 0..S {
-                let factor = self.angular_linear[k][l] * flexibility[l];
-                for m in 0..S {
-                    matrix[k][m] -= factor * self.linear_angular[l][m];
+    fn solve<const SOFT: bool>(&mut self, flexibility: &[Matrix3<f64>; S], fixed: &[bool; 6]) -> Option<()> {
+        let (matrix, rhs) = (&mut self.angular_angular, &mut self.angular_rhs);
+        if SOFT {
+            for k in 0..S {
+                for l in 0..S {
+                    let factor = self.angular_linear[k][l] * flexibility[l];
+                    for m in 0..S {
+                        matrix[k][m] -= factor * self.linear_angular[l][m];
+                    }
+                    rhs[k] -= factor * self.linear_rhs[l];
                 }
-                rhs[k] -= factor * self.linear_rhs[l];
             }
         }
-        let angular = curvatures(&matrix, &rhs)?;
-        let mut linear = self.linear_rhs;
+        if fixed[..3] == [false; 3] {
+            solve_rows(matrix, rhs)?;
+        } else {
+            solve_free_rows(matrix, rhs, fixed)?;
+        }
+        let linear = &mut self.linear_rhs;
+        if !SOFT {
+            linear.iter_mut().for_each(|linear| linear.fill(0.0));
+            return Some(());
+        }
         for k in 0..S {
             for l in 0..S {
-                linear[k] -= self.linear_angular[k][l] * angular[l];
+                linear[k] -= self.linear_angular[k][l] * rhs[l];
             }
             linear[k] = flexibility[k] * linear[k];
         }
-        Some([angular, linear])
+        Some(())
     }
 }
 

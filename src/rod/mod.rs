@@ -13,7 +13,9 @@ pub(crate) mod magnus;
 mod planar;
 mod scene;
 mod stages;
+mod strong_form;
 pub(crate) mod support;
 
 pub use scene::Rod;
+pub use strong_form::{Motion, RateLoad, SectionState, StrainRate};
 pub use support::{Condition, Freedom, Support};

@@ -5,12 +5,13 @@ use nalgebra::{Matrix3, SMatrix};
 use super::condense::COLUMNS;
 use super::element::Linearisation;
 
-/// Solves for the curvatures of up to three stages: 3S equations with C right-hand sides. `None` if they are singular.
+/// Solves for the curvatures of up to three stages: 3S equations with C right-hand sides, which the solution replaces. `None` if they are
+/// singular.
 #[inline(always)]
 pub(super) fn solve_rows<const S: usize, const C: usize>(
     matrix: &[[Matrix3<f64>; S]; S],
-    rhs: &[SMatrix<f64, 3, C>; S],
-) -> Option<[SMatrix<f64, 3, C>; S]> {
+    rhs: &mut [SMatrix<f64, 3, C>; S],
+) -> Option<()> {
     const MAX: usize = 9;
     let n = 3 * S;
     let mut left = [[0.0_f64; MAX]; MAX];
@@ -62,23 +63,22 @@ pub(super) fn solve_rows<const S: usize, const C: usize>(
         }
         right[row] = value.map(|v| v * inverse);
     }
-    let mut solution = [SMatrix::<f64, 3, C>::zeros(); S];
     for k in 0..S {
         for r in 0..3 {
             for c in 0..C {
-                solution[k][(r, c)] = right[3 * k + r][c];
+                rhs[k][(r, c)] = right[3 * k + r][c];
             }
         }
     }
-    Some(solution)
+    Some(())
 }
 
 /// As [`solve_rows`] for the curvatures that are not `fixed`: fewer equations; the others are zero.
 pub(super) fn solve_free_rows<const S: usize, const C: usize>(
     matrix: &[[Matrix3<f64>; S]; S],
-    rhs: &[SMatrix<f64, 3, C>; S],
+    rhs: &mut [SMatrix<f64, 3, C>; S],
     fixed: &[bool; 6],
-) -> Option<[SMatrix<f64, 3, C>; S]> {
+) -> Option<()> {
     const MAX: usize = 9;
     let mut free = [(0, 0); MAX];
     let mut n = 0;
@@ -98,13 +98,13 @@ pub(super) fn solve_free_rows<const S: usize, const C: usize>(
         }
     }
     eliminate(&mut rows[..n], n + C)?;
-    let mut solution = [SMatrix::<f64, 3, C>::zeros(); S];
+    rhs.iter_mut().for_each(|rhs| rhs.fill(0.0));
     for (row, &(k, r)) in rows.iter().zip(&free[..n]) {
         for c in 0..C {
-            solution[k][(r, c)] = row[n + c];
+            rhs[k][(r, c)] = row[n + c];
         }
     }
-    Some(solution)
+    Some(())
 }
 
 /// Solves A X = (P_Λ, −r, P_ζ) for all strains at once that are not fixed, rows scaled by their largest entry.

@@ -65,7 +65,7 @@ fn held_joints<'a, B: Elastic, const S: usize>(
     all.filter(|(_, j, _)| !mesh.rod.joints()[*j].fixture.support.is_free())
 }
 
-fn joint_equations<B: Elastic, const S: usize>(
+pub(super) fn joint_equations<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     j: usize,
     joint: &JointState,

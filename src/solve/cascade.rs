@@ -4,6 +4,7 @@ use super::describe::{describe, failed};
 use super::equilibrium::Configuration;
 use super::estimate::{Defect, Level, difference, first_elements};
 use super::failure::{Failure, Reason};
+use super::globalise::unstable;
 use super::linear::Buffers;
 use super::mesh::Mesh;
 use super::newton::{Newton, Outcome, Stop};
@@ -40,27 +41,34 @@ const FIRST_NEWTON: f64 = 1e-3;
 const NEWTON_SHARE: f64 = 0.02;
 
 /// How often a first mesh on which Newton's method fails is made four times finer.
-const FIRST_MESHES: usize = 3;
+const FIRST_MESHES: u32 = 3;
 
 pub(super) struct Cascade<'r, 'o, B, const S: usize> {
     rod: &'r Rod<B>,
     newton: Newton<'o>,
-    buffers: &'o mut Buffers<S>,
-    report: Report,
+    pub(super) buffers: &'o mut Buffers<S>,
+    pub(super) report: Report,
+    /// Whether an equilibrium that would not stay is an answer.
+    pub(super) accept_unstable: bool,
 }
 
 type Solved = Result<StaticSolution, Box<Failure>>;
 
 impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
-    pub(super) fn new(rod: &'r Rod<B>, newton: Newton<'o>, buffers: &'o mut Buffers<S>) -> Self {
-        Self { rod, newton, buffers, report: Report::default() }
+    pub(super) fn new(
+        rod: &'r Rod<B>,
+        newton: Newton<'o>,
+        buffers: &'o mut Buffers<S>,
+        accept_unstable: bool,
+    ) -> Self {
+        Self { rod, newton, buffers, report: Report::default(), accept_unstable }
     }
 
     /// A mesh of so many equal elements, then one of twice as many, which is the answer.
     pub(super) fn on_mesh(&mut self, coarse_elements: usize) -> Solved {
         self.check_supports()?;
         let coarse_mesh = Mesh::<B, S>::uniform(self.rod, coarse_elements);
-        let coarse = self.solve(&coarse_mesh, Unknowns::at_rest(&coarse_mesh))?;
+        let (coarse_mesh, coarse) = self.climb(std::iter::once(coarse_mesh))?;
         let parts = vec![2; coarse_mesh.elements()];
         let mesh = coarse_mesh.refined(&parts);
         let fine = self.solve(&mesh, coarse.unknowns.prolonged(&coarse_mesh, &parts))?;
@@ -136,34 +144,35 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
     fn first_level(&mut self) -> Result<Level<'r, B, S>, Box<Failure>> {
         let probe = Mesh::<B, S>::uniform(self.rod, 1);
         let mut state = self.buffers.configuration();
-        let mut elements = match probe.configure(&Unknowns::at_rest(&probe), &mut state) {
+        let elements = match probe.configure(&Unknowns::at_rest(&probe), &mut state) {
             Ok(()) => first_elements(&probe, &state),
             Err(_) => 2, // the solve finds the same, and says so
         };
         self.buffers.recycle(state);
-        let mut trial = 1;
-        loop {
-            let mesh = Mesh::uniform(self.rod, elements);
-            let start = Unknowns::at_rest(&mesh);
-            let level = self.level(mesh, start);
-            if level.is_ok() || trial == FIRST_MESHES {
-                return level;
-            }
-            trial += 1;
-            elements *= 4;
-        }
+        let rod = self.rod;
+        let meshes = (0..FIRST_MESHES).map(|trial| Mesh::uniform(rod, elements * 4_usize.pow(trial)));
+        let (mesh, outcome) = self.climb(meshes)?;
+        Ok(Self::level_of(mesh, outcome))
     }
 
     fn level(&mut self, mesh: Mesh<'r, B, S>, start: Unknowns<S>) -> Result<Level<'r, B, S>, Box<Failure>> {
         let outcome = self.solve(&mesh, start)?;
+        Ok(Self::level_of(mesh, outcome))
+    }
+
+    fn level_of(mesh: Mesh<'r, B, S>, outcome: Outcome<S>) -> Level<'r, B, S> {
         let defect = match &outcome.state {
             Some(state) => Defect::of(&mesh, &outcome.unknowns.strains, state),
             None => Defect { shares: vec![0.0; mesh.elements()] },
         };
-        Ok(Level { mesh, outcome, defect })
+        Level { mesh, outcome, defect }
     }
 
-    fn solve(&mut self, mesh: &Mesh<'_, B, S>, start: Unknowns<S>) -> Result<Outcome<S>, Box<Failure>> {
+    pub(super) fn solve(
+        &mut self,
+        mesh: &Mesh<'_, B, S>,
+        start: Unknowns<S>,
+    ) -> Result<Outcome<S>, Box<Failure>> {
         let outcome = self.newton.solve(mesh, start, self.buffers, &mut self.report.iterations);
         self.report.residual = outcome.residual;
         if outcome.failure.is_some() {
@@ -172,7 +181,11 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         Ok(outcome)
     }
 
-    fn answer(&self, mesh: &Mesh<'_, B, S>, outcome: &Outcome<S>) -> Solved {
+    fn answer(&mut self, mesh: &Mesh<'_, B, S>, outcome: &Outcome<S>) -> Solved {
+        self.report.stability = self.stability_of(mesh, outcome);
+        if self.report.stability.is_unstable() && !self.accept_unstable {
+            return Err(unstable(mesh, outcome, self.report.stability, self));
+        }
         let Some(state) = &outcome.state else {
             let reason = Reason::Singular {
                 iteration: outcome.iterations,

@@ -259,11 +259,17 @@ impl<const S: usize> Configuration<S> {
             return;
         }
         let fixed = constraint.fixed();
-        let stages = self.response.iter_mut().flatten().zip(self.stage_wrench.iter().flatten());
-        for (response, balance) in stages {
-            let (law, balance) = (response.wrench.to_array(), balance.to_array());
-            let wrench = std::array::from_fn(|i| if fixed[i] { balance[i] } else { law[i] });
-            response.wrench = Wrench::from_array(wrench);
+        for (responses, balances) in self.response.iter_mut().zip(&self.stage_wrench) {
+            for (response, balance) in responses.iter_mut().zip(balances) {
+                for i in 0..3 {
+                    if fixed[i] {
+                        response.wrench.moment[i] = balance.moment[i];
+                    }
+                    if fixed[3 + i] {
+                        response.wrench.force[i] = balance.force[i];
+                    }
+                }
+            }
         }
     }
 

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{Report, StaticSolution};
+use super::{Report, Stability, StaticSolution};
 use crate::error::Error;
 
 /// Why a solve ended without an answer.
@@ -49,6 +49,14 @@ pub enum Reason {
         estimated: f64,
         /// The elements of the last mesh.
         elements: usize,
+    },
+    /// Every equilibrium that was found is unstable. The last state of the failure is one.
+    #[error(
+        "an equilibrium was found, but no stable one ({stability}); accept_unstable takes it as the answer"
+    )]
+    Unstable {
+        /// How it is unstable.
+        stability: Stability,
     },
     /// The iteration limit was reached.
     #[error(

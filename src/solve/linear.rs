@@ -26,6 +26,7 @@ pub(crate) struct Step {
 }
 
 /// A change of the [`Unknowns`].
+#[derive(Clone, Debug)]
 pub(crate) struct Increment<const S: usize> {
     /// δξ.
     pub(crate) strains: StageStrains<S>,
@@ -85,6 +86,16 @@ impl<const S: usize> Buffers<S> {
         scale: &Scale,
     ) -> Result<Step> {
         self.condense(mesh, unknowns, state)?;
+        self.solve_condensed(mesh, state, scale)
+    }
+
+    /// The same about elements that are condensed.
+    pub(super) fn solve_condensed<B: Elastic>(
+        &mut self,
+        mesh: &Mesh<'_, B, S>,
+        state: &Configuration<S>,
+        scale: &Scale,
+    ) -> Result<Step> {
         self.step.reactions.clear();
         self.step.reactions.resize(mesh.rod.joints().len(), Vector6::zeros());
         let swept = mesh.is_cantilever() && {
@@ -102,7 +113,7 @@ impl<const S: usize> Buffers<S> {
     }
 
     /// The transfers of the elements, joints without a support taken into the element before them.
-    fn condense<B: Elastic>(
+    pub(super) fn condense<B: Elastic>(
         &mut self,
         mesh: &Mesh<'_, B, S>,
         unknowns: &Unknowns<S>,

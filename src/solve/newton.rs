@@ -150,7 +150,7 @@ impl Newton<'_> {
 }
 
 /// Units for the chain: the rod's length, and the force its bending stiffness makes of it.
-fn scale<B: Elastic, const S: usize>(mesh: &Mesh<'_, B, S>, state: &Configuration<S>) -> Scale {
+pub(crate) fn scale<B: Elastic, const S: usize>(mesh: &Mesh<'_, B, S>, state: &Configuration<S>) -> Scale {
     let length = mesh.rod.body().length();
     let k = &state.response[0][0].tangent;
     let bending = k[(0, 0)].abs().max(k[(1, 1)].abs()).max(f64::MIN_POSITIVE);

@@ -1,6 +1,7 @@
 //! Sections that relax: against closed forms, converged 2-D finite elements, finite differences and themselves.
 #![allow(clippy::expect_used, clippy::unwrap_used)] // a test stops where its data are wrong
 
+mod failures;
 mod finite;
 mod identities;
 mod ladder;

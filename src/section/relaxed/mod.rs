@@ -4,6 +4,7 @@
 //! [`CrossSection`].
 
 mod assembly;
+mod choose;
 mod deformed;
 mod equilibrium;
 mod modes;
@@ -27,6 +28,7 @@ use crate::error::{Error, Result};
 use crate::lie::{Strain, Wrench};
 use crate::material::{GradientState, Local, Request, Response, Station, check_strain};
 
+pub use choose::{LadderReport, LadderStep};
 pub use deformed::{Deformed, Extremes, SectionPoint};
 pub use warping::Warping;
 
