@@ -32,17 +32,23 @@ pub fn draw(quick: bool, picture: &Path) -> Outcome {
     let path = statics.trace_buckled(&column, &options)?.ok_or("the column does not buckle")?;
 
     let side = path.points.last().map_or(1.0, |p| p.solution.tip().pose.position.x.signum());
-    let branch = path.points.iter().map(|p| [side * p.solution.tip().pose.position.x, p.load_factor]);
-    let title = "Column, clamped below: the path of equilibria";
-    Chart::new(title, "sideways displacement of the tip, L", "load, Euler's load")
-        .line("buckled", branch)
-        .dots("elastica, exact", (1..9).map(|i| elastica(0.1 * f64::from(i))))
-        .line("straight (unstable above 1)", [[0.0, 0.0], [0.0, 3.0]])
-        .save(&picture.with_file_name("buckled_strut_path.svg"))?;
+    let branch =
+        |side: f64| path.points.iter().map(move |p| [side * p.solution.tip().pose.position.x, p.load_factor]);
+    let exact = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95].map(elastica);
+    Chart::new(
+        "Column, clamped below: the paths of its equilibria",
+        "sideways displacement of the tip, L",
+        "load, Euler's load",
+    )
+    .line("straight (unstable above 1)", [[0.0, 0.0], [0.0, 3.0]])
+    .line("buckled to the right", branch(side))
+    .line("to the left", branch(-side))
+    .marks("elastica, exact", exact)
+    .save(&picture.with_file_name("buckled_strut_path.svg"))?;
 
-    let title = "Column under 1.05, 1.5 and 3 times Euler's load";
+    let title = "Column beyond Euler's load, P/P_E";
     let mut drawing = Drawing::new(title, "X, L", "Z, L").line(vec![[0.0, 0.0], [0.0, 1.0]], BLUE);
-    drawing = drawing.legend("straight", BLUE);
+    drawing = drawing.legend("up to 1", BLUE);
     for (wanted, color) in [(1.05, ORANGE), (1.5, GREEN), (3.0, crate::figure::PURPLE)] {
         let nearest = |a: &f64, b: &f64| (a - wanted).abs().total_cmp(&(b - wanted).abs());
         let Some(state) = path.points.iter().min_by(|a, b| nearest(&a.load_factor, &b.load_factor)) else {

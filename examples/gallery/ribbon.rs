@@ -1,8 +1,8 @@
-//! A ribbon between two clamps that are brought together and turned about the line between them: developable as paper is, or a linear strip.
+//! A ribbon bent and twisted by a force at its tip: developable as paper is, or a linear strip of the same moduli.
 
 use crate::figure::{BLUE, Drawing, ORANGE, Outcome, SKY};
 use crate::ribbon_view::ribbon;
-use hyperrod::rod::Support;
+use hyperrod::load::DeadWrench;
 use hyperrod::section::{CrossSection, Resultants, Ribbon, Stiffness};
 use hyperrod::{Body, Pose, Rod, StaticSolution, Statics};
 use nalgebra::{Isometry3, Vector3, vector};
@@ -16,13 +16,15 @@ const YOUNG: f64 = 4e9; // Pa, a polyester film
 const POISSON: f64 = 0.35;
 
 fn solve(section: Box<dyn CrossSection>, elements: usize) -> Outcome<StaticSolution> {
-    let p: Vec<f64> = std::env::var("F").map(|t| t.split(',').map(|v| v.parse().unwrap()).collect()).unwrap_or(vec![0.7, 1.5]);
     let body = Body::new(LENGTH, section)?;
     // along +X, its width along Y, its face up
-    let turned = Isometry3::rotation(vector![0.0, FRAC_PI_2, 0.0]) * Isometry3::rotation(vector![0.0, 0.0, FRAC_PI_2]);
-    let near = Pose::from(turned);
-    let far = Isometry3::new(vector![p[0] * LENGTH, 0.0, 0.0], vector![p[1], 0.0, 0.0]) * turned;
-    let rod = Rod::between(body, Support::clamped(near), Support::clamped(Pose::from(far)));
+    let turned =
+        Isometry3::rotation(vector![0.0, FRAC_PI_2, 0.0]) * Isometry3::rotation(vector![0.0, 0.0, FRAC_PI_2]);
+    let f: Vec<f64> = std::env::var("F")
+        .map(|t| t.split(',').map(|v| v.parse().unwrap()).collect())
+        .unwrap_or(vec![0.0, 0.004, -0.006, 0.0, 0.0, 0.0]);
+    let pull = DeadWrench::new(vector![f[3], f[4], f[5]], vector![f[0], f[1], f[2]])?;
+    let rod = Rod::clamped(body, Pose::from(turned)).with_tip_load(pull);
     Ok(Statics { elements, max_iterations: 200, ..Statics::default() }.solve(&rod)?)
 }
 
@@ -37,15 +39,16 @@ pub fn draw(quick: bool, picture: &Path) -> Outcome {
     let film = Resultants(Ribbon::new(SIZE, YOUNG, POISSON)?);
 
     let elements = if quick { 16 } else { 64 };
-    let view = [vector![1.0, 0.3, 0.0].normalize(), vector![-0.15, 0.5, 0.9].normalize()];
-    let title = "Polyester ribbon, its ends brought together and turned";
+    let view = [vector![1.0, 0.5, 0.0].normalize(), vector![-0.25, 0.5, 1.2].normalize()];
+    let title = "Polyester ribbon under a slanting force at its tip";
     let mut drawing = Drawing::new(title, "to the right, mm", "upwards, mm")
         .legend("developable ribbon (Sadowsky)", BLUE)
         .legend("linear strip", ORANGE);
     let linear: [RGBColor; 2] = [ORANGE, RGBColor(240, 180, 140)];
-    for (section, colors) in [(Box::new(strip) as Box<dyn CrossSection>, linear), (Box::new(film), [BLUE, SKY])] {
+    for (section, colors) in
+        [(Box::new(strip) as Box<dyn CrossSection>, linear), (Box::new(film), [BLUE, SKY])]
+    {
         let solution = solve(section, elements)?;
-        if std::env::var("V").is_ok() { eprintln!("{:?} {:?}", solution.report().rungs, solution.report().stability); }
         let stations: Vec<_> = solution.nodes().iter().map(|n| n.pose).collect();
         drawing = ribbon(drawing, &stations, width, view, colors);
     }

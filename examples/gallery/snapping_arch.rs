@@ -40,11 +40,20 @@ pub fn draw(quick: bool, picture: &Path) -> Outcome {
     let path = path(if quick { 6 } else { 12 })?;
     let rise = crown(&path.points[0]);
     let place = |state: &PathState| [(rise - crown(state)) / rise, state.load_factor];
+    let mut chart =
+        Chart::new("Shallow arch: load against the way down of its crown", "way down, rises", "load, EI/L²");
+    let unstable = |state: &PathState| state.solution.report().stability.is_unstable();
+    for part in path.points.chunk_by(|a, b| unstable(a) == unstable(b)) {
+        let name = if unstable(&part[0]) { "unstable" } else { "stable" };
+        chart = chart.line(name, part.iter().map(place));
+    }
     let limits = path.events.iter().filter(|e| e.kind == PathEventKind::LimitPoint);
-    Chart::new("Shallow arch: load against the way down of its crown", "way down, rises", "load, EI/L²")
-        .line("equilibria", path.points.iter().map(place))
-        .dots("limit points", limits.map(|event| place(&event.state)))
-        .save(&picture.with_file_name("snapping_arch_path.svg"))?;
+    let forks = path.events.iter().filter(|e| e.kind == PathEventKind::Bifurcation);
+    chart = chart.marks("limit points", limits.map(|event| place(&event.state)));
+    if forks.clone().next().is_some() {
+        chart = chart.marks("bifurcations", forks.map(|event| place(&event.state)));
+    }
+    chart.save(&picture.with_file_name("snapping_arch_path.svg"))?;
 
     let Some(first) = path.events.iter().find(|e| e.kind == PathEventKind::LimitPoint) else {
         return Err("the arch does not snap".into());
