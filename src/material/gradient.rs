@@ -9,7 +9,7 @@ use std::marker::PhantomData;
 use nalgebra::{Matrix3, SMatrix, SVector};
 use num_dual::{Derivative, Dual2SVec64};
 
-use super::differentiate::{Energy, Level, Rate, Tangent, Wrench};
+use super::differentiate::{Level, Rate, Tangent};
 use super::kinematics::{Deformation, Invariants, Point};
 use super::law::{Isotropic, Local};
 use super::response::{Points, Request};
@@ -33,7 +33,7 @@ pub struct GradientSite<L> {
     pub h: [L; 9],
 }
 
-/// Value and derivatives of an energy density u(H), as far as asked.
+/// Value and derivatives of an energy density u(H).
 #[derive(Clone, Copy, Debug)]
 pub struct GradientResponse<L> {
     /// u, J/m³.
@@ -196,44 +196,20 @@ pub(super) fn isotropic_gradient_response<M: Isotropic + ?Sized, L: Lane, O: Lev
 ) -> GradientResponse<L> {
     let kinematics = Kinematics::of(&site.h);
     let [a, b, j] = kinematics.invariants;
-    match O::REQUEST {
-        Request::Energy => {
-            let i = Invariants::from_excess(Jet::<L, 0, 0>::constant(a), Jet::constant(b), Jet::constant(j));
-            GradientResponse::energy_only(law.energy_density(&i, &site.fixed_point()).value)
-        }
-        Request::Wrench => {
-            let i = Invariants::from_excess(
-                Jet::<L, 3, 0>::variable(a, 0),
-                Jet::variable(b, 1),
-                Jet::variable(j, 2),
-            );
-            let u = law.energy_density(&i, &site.fixed_point());
-            let stress = combine(&u.gradient, &kinematics.slopes());
-            GradientResponse { stress, ..GradientResponse::energy_only(u.value) }
-        }
-        Request::Tangent => {
-            let i = Invariants::from_excess(
-                Jet::<L, 3, 6>::variable(a, 0),
-                Jet::variable(b, 1),
-                Jet::variable(j, 2),
-            );
-            let u = law.energy_density(&i, &site.fixed_point());
-            chain(&kinematics, u.value, &u.gradient, &u.hessian)
-        }
-        Request::Rate => {
-            let i = Invariants::from_excess(
-                Jet::<L, 4, 10>::variable(a, 0),
-                Jet::variable(b, 1),
-                Jet::variable(j, 2),
-            );
-            let u = law.energy_density(&i, &site.moving_point());
-            let ([u_a, u_b, u_j, _], h) = (u.gradient, u.hessian);
-            let second = [h[0], h[1], h[2], h[4], h[5], h[7]];
-            let mut out = chain(&kinematics, u.value, &[u_a, u_b, u_j], &second);
-            out.stress_rate = combine(&[h[3], h[6], h[8]], &kinematics.slopes());
-            out
-        }
+    if O::REQUEST < Request::Rate {
+        let i =
+            Invariants::from_excess(Jet::<L, 3, 6>::variable(a, 0), Jet::variable(b, 1), Jet::variable(j, 2));
+        let u = law.energy_density(&i, &site.fixed_point());
+        return chain(&kinematics, u.value, &u.gradient, &u.hessian);
     }
+    let i =
+        Invariants::from_excess(Jet::<L, 4, 10>::variable(a, 0), Jet::variable(b, 1), Jet::variable(j, 2));
+    let u = law.energy_density(&i, &site.moving_point());
+    let ([u_a, u_b, u_j, _], h) = (u.gradient, u.hessian);
+    let second = [h[0], h[1], h[2], h[4], h[5], h[7]];
+    let mut out = chain(&kinematics, u.value, &[u_a, u_b, u_j], &second);
+    out.stress_rate = combine(&[h[3], h[6], h[8]], &kinematics.slopes());
+    out
 }
 
 #[inline(always)]
@@ -305,31 +281,23 @@ pub(super) fn local_gradient_response<M: Local + ?Sized, L: Lane, O: Level>(
         let h: [f64; 9] = std::array::from_fn(|c| site.h[c].lane(lane));
         let [x, y] = site.position.map(|v| v.lane(lane));
         let at = Point { x, y, s: site.s.lane(lane) };
-        match O::REQUEST {
-            Request::Energy => {
-                let f = Deformation::from_gradient(&Matrix3::from_row_slice(&h));
-                lanes[0][lane] = law.energy_density(&f, &at);
-            }
-            Request::Wrench | Request::Tangent => {
-                let f = Deformation::from_gradient(&variables::<9>(&h));
-                let u = law.energy_density(&f, &at.cast());
-                read(&u, lane, &mut lanes);
-            }
-            Request::Rate => {
-                let [dx, dy] = site.position_rate.map(|v| v.lane(lane));
-                let moving = |value: f64, rate: f64| {
-                    let mut v = SVector::<f64, 10>::zeros();
-                    v[9] = rate;
-                    Dual2SVec64::<10>::new(value, Derivative::some(v.transpose()), Derivative::none())
-                };
-                let at = Point { x: moving(at.x, dx), y: moving(at.y, dy), s: moving(at.s, 1.0) };
-                let u = law.energy_density(&Deformation::from_gradient(&variables::<10>(&h)), &at);
-                read(&u, lane, &mut lanes);
-                let v2 = u.v2.unwrap_generic(nalgebra::Const::<10>, nalgebra::Const::<10>);
-                for c in 0..9 {
-                    lanes[1 + 9 + STIFFNESS + c][lane] = v2[(c, 9)];
-                }
-            }
+        if O::REQUEST < Request::Rate {
+            let f = Deformation::from_gradient(&variables::<9>(&h));
+            read(&law.energy_density(&f, &at.cast()), lane, &mut lanes);
+            continue;
+        }
+        let [dx, dy] = site.position_rate.map(|v| v.lane(lane));
+        let moving = |value: f64, rate: f64| {
+            let mut v = SVector::<f64, 10>::zeros();
+            v[9] = rate;
+            Dual2SVec64::<10>::new(value, Derivative::some(v.transpose()), Derivative::none())
+        };
+        let at = Point { x: moving(at.x, dx), y: moving(at.y, dy), s: moving(at.s, 1.0) };
+        let u = law.energy_density(&Deformation::from_gradient(&variables::<10>(&h)), &at);
+        read(&u, lane, &mut lanes);
+        let v2 = u.v2.unwrap_generic(nalgebra::Const::<10>, nalgebra::Const::<10>);
+        for c in 0..9 {
+            lanes[1 + 9 + STIFFNESS + c][lane] = v2[(c, 9)];
         }
     }
     let load = |c: usize| L::load(&lanes[c]);
@@ -387,42 +355,46 @@ pub(crate) struct GradientState {
     pub(crate) stress_rate: Vec<f64>,
 }
 
-impl GradientState {
-    /// Evaluates a law; the smallest J is returned (what a NaN in H makes of it is not said).
-    pub(crate) fn evaluate<M: Local>(&mut self, law: &M, batch: GradientBatch<'_>, request: Request) -> f64 {
+/// A law as a relaxed section sees it: what it answers to H at many points. An object, so that what is done with the answers is compiled
+/// once and not for every law.
+pub(crate) trait GradientLaw: Send + Sync {
+    /// Writes energy, stress and stiffness, and with [`Request::Rate`] the rate of the stress; the smallest J comes back (what a NaN in
+    /// H makes of it is not said).
+    fn evaluate(&self, batch: GradientBatch<'_>, request: Request, out: &mut GradientState) -> f64;
+
+    /// Where the law is defined.
+    fn domain(&self) -> &'static str;
+}
+
+impl<M: Local> GradientLaw for M {
+    fn evaluate(&self, batch: GradientBatch<'_>, request: Request, out: &mut GradientState) -> f64 {
         let n = batch.points.len();
-        self.energy.resize(n, 0.0);
-        self.stress.resize(9 * n, 0.0);
-        self.stiffness.resize(STIFFNESS * n, 0.0);
-        self.stress_rate.resize(9 * n, 0.0);
-        match request {
-            Request::Energy => {
-                dispatch(GradientKernel { law, batch, out: self, level: PhantomData::<Energy> })
-            }
-            Request::Wrench => {
-                dispatch(GradientKernel { law, batch, out: self, level: PhantomData::<Wrench> })
-            }
-            Request::Tangent => {
-                dispatch(GradientKernel { law, batch, out: self, level: PhantomData::<Tangent> })
-            }
-            Request::Rate => dispatch(GradientKernel { law, batch, out: self, level: PhantomData::<Rate> }),
+        out.energy.resize(n, 0.0);
+        out.stress.resize(9 * n, 0.0);
+        out.stiffness.resize(STIFFNESS * n, 0.0);
+        if request < Request::Rate {
+            return dispatch(GradientKernel { law: self, batch, out, level: PhantomData::<Tangent> });
         }
+        out.stress_rate.resize(9 * n, 0.0);
+        dispatch(GradientKernel { law: self, batch, out, level: PhantomData::<Rate> })
     }
 
+    fn domain(&self) -> &'static str {
+        Local::domain(self)
+    }
+}
+
+impl GradientState {
     /// Writes a block, or one lane of it, where its points are.
     #[inline(always)]
     fn store<L: Lane, O: Level>(&mut self, q: usize, lane: Option<usize>, response: &GradientResponse<L>) {
         let n = self.energy.len();
         write(&mut self.energy[q..], lane, response.energy);
-        if O::REQUEST >= Request::Wrench {
-            for c in 0..9 {
-                write(&mut self.stress[c * n + q..(c + 1) * n], lane, response.stress[c]);
-            }
+        for c in 0..9 {
+            write(&mut self.stress[c * n + q..(c + 1) * n], lane, response.stress[c]);
         }
-        if O::REQUEST >= Request::Tangent {
-            for c in 0..STIFFNESS {
-                write(&mut self.stiffness[c * n + q..(c + 1) * n], lane, response.stiffness[c]);
-            }
+        for c in 0..STIFFNESS {
+            write(&mut self.stiffness[c * n + q..(c + 1) * n], lane, response.stiffness[c]);
         }
         if O::REQUEST >= Request::Rate {
             for c in 0..9 {

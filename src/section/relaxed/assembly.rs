@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, SMatrix, Vector6};
 
 use super::modes::Modes;
 use crate::lie::Strain;
-use crate::material::{GradientBatch, GradientState, Local, Request, Station, packed};
+use crate::material::{GradientBatch, GradientLaw, GradientState, Request, Station, packed};
 
 /// The reference at the points: γ*₁, γ*₂ and 1/j, and the volume w j per ds of each.
 pub(super) struct Frame {
@@ -105,14 +105,14 @@ impl<'a> Displaced<'a> {
     }
 
     /// Evaluates the law at the points; the smallest J comes back.
-    pub(super) fn evaluate<M: Local>(
+    pub(super) fn evaluate(
         &self,
-        law: &M,
+        law: &dyn GradientLaw,
         s: f64,
         request: Request,
         out: &mut GradientState,
     ) -> f64 {
-        out.evaluate(law, GradientBatch { points: &self.modes.points, s, h: &self.h }, request)
+        law.evaluate(GradientBatch { points: &self.modes.points, s, h: &self.h }, request, out)
     }
 
     /// ∫u dV.

@@ -8,7 +8,7 @@ use super::pressure;
 use super::system::{System, augmented};
 use crate::error::{Error, Result};
 use crate::lie::Strain;
-use crate::material::{GradientState, Local, Request, Station};
+use crate::material::{GradientLaw, GradientState, Request, Station};
 
 /// Newton iterations at one strain; an energy that has a minimum within reach takes three to ten.
 const ITERATIONS: usize = 40;
@@ -80,9 +80,9 @@ impl Derivatives {
 }
 
 /// What equilibrium is sought for.
-pub(super) struct Problem<'a, M> {
+pub(super) struct Problem<'a> {
     pub(super) modes: &'a Modes,
-    pub(super) law: &'a M,
+    pub(super) law: &'a dyn GradientLaw,
     pub(super) at: &'a Station,
     /// How many pressures keep the volume; 0 for a compressible law.
     pub(super) pressures: usize,
@@ -96,7 +96,7 @@ enum Miss {
     Unstable(Error),
 }
 
-impl<M: Local> Problem<'_, M> {
+impl Problem<'_> {
     /// From a start, or from rest: at once, or else along the straight way from rest, with the tangent as predictor.
     ///
     /// # Errors
