@@ -44,7 +44,7 @@ pub(super) fn condense(
         response.tangent = tangent;
     }
     if request >= Request::Rate {
-        let frame = Frame::new(problem.modes, problem.at, strain);
+        let frame = Frame::new(problem.modes, problem.at, strain)?;
         let coefficients = problem.modes.expand(&equilibrium.evaluated_at);
         let displaced = Displaced::new(problem.modes, &frame, &coefficients);
         let mut state = GradientState::default();

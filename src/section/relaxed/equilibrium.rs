@@ -94,6 +94,8 @@ enum Miss {
     Step(Error),
     /// An equilibrium that is no minimum.
     Unstable(Error),
+    /// A reference that no strain changes.
+    Reference(Error),
 }
 
 impl Problem<'_> {
@@ -104,7 +106,7 @@ impl Problem<'_> {
     pub(super) fn solve(&self, strain: &Strain, start: &DVector<f64>) -> Result<Equilibrium> {
         match self.newton(strain, start) {
             Ok(found) => Ok(found),
-            Err(Miss::Unstable(error)) => Err(error),
+            Err(Miss::Unstable(error) | Miss::Reference(error)) => Err(error),
             Err(Miss::Step(_)) => self.along(strain),
         }
     }
@@ -146,7 +148,7 @@ impl Problem<'_> {
     }
 
     fn newton(&self, strain: &Strain, start: &DVector<f64>) -> Result<Equilibrium, Miss> {
-        let frame = Frame::new(self.modes, self.at, strain);
+        let frame = Frame::new(self.modes, self.at, strain).map_err(Miss::Reference)?;
         let mut state = GradientState::default();
         let (mut q, mut displaced) = self.begin(&frame, start, &mut state).map_err(Miss::Step)?;
         let mut step = DVector::from_element(q.len(), f64::INFINITY);
@@ -338,7 +340,7 @@ impl Problem<'_> {
 impl Miss {
     fn error(self) -> Error {
         match self {
-            Self::Step(error) | Self::Unstable(error) => error,
+            Self::Step(error) | Self::Unstable(error) | Self::Reference(error) => error,
         }
     }
 }
