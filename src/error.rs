@@ -79,6 +79,20 @@ pub enum Error {
         /// Arc length, m.
         s: f64,
     },
+    /// A rod that its supports do not hold, and no load either.
+    #[error(
+        "the supports leave the rod free to move: {motion} ({x:.3}, {y:.3}, {z:.3}); hold that freedom at one of them"
+    )]
+    FreeToMove {
+        /// `translation along` or `rotation about`.
+        motion: &'static str,
+        /// Direction in space, a unit vector.
+        x: f64,
+        /// Its second component.
+        y: f64,
+        /// Its third component.
+        z: f64,
+    },
     /// A bounded iteration that did not reach its tolerance.
     #[error("{what} did not converge in {iterations} iterations; the last correction was {residual}")]
     NoConvergence {

@@ -6,6 +6,7 @@
 //!
 //! What lives here knows one section at a time: nothing of lengths, poses or loads.
 
+mod actuation;
 mod annulus;
 mod check;
 mod circle;
@@ -30,6 +31,7 @@ mod solid;
 mod stiffness;
 
 pub use crate::quadrature::Polygon;
+pub use actuation::{Actuated, Actuator, Converging, Helical, PressureChamber, Routing, Tendon};
 pub use annulus::Annulus;
 pub use check::{AxisRange, Bound, CheckOptions, CheckReport, Derivatives, Moduli, check};
 pub use circle::Circle;
@@ -129,6 +131,20 @@ pub trait CrossSection: Send + Sync {
     fn adapt_to(&mut self, _at: &Station) -> Result<()> {
         Ok(())
     }
+
+    /// Arc lengths at which the response is not smooth in s, in any order: a mesh wants nodes there. At such an s the response is
+    /// that of what lies before.
+    fn breakpoints(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// The same with an [`Actuator`] on it: a tendon, a pressure chamber.
+    fn with_actuator(self, actuator: impl Actuator + 'static) -> Actuated<Self>
+    where
+        Self: Sized,
+    {
+        Actuated::new(self).with_actuator(actuator)
+    }
 }
 
 impl CrossSection for Box<dyn CrossSection> {
@@ -147,5 +163,9 @@ impl CrossSection for Box<dyn CrossSection> {
 
     fn adapt_to(&mut self, at: &Station) -> Result<()> {
         (**self).adapt_to(at)
+    }
+
+    fn breakpoints(&self) -> Vec<f64> {
+        (**self).breakpoints()
     }
 }

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{Report, StaticSolution};
+use super::{Report, Stability, StaticSolution};
 use crate::error::Error;
 
 /// Why a solve ended without an answer.
@@ -10,6 +10,9 @@ pub enum Reason {
     /// The options make no sense.
     #[error("{0}")]
     Options(Error),
+    /// The supports do not hold the rod.
+    #[error("{0}")]
+    Supports(Error),
     /// The rod cannot be evaluated where the solve starts, at its reference shape.
     #[error("the rod cannot be evaluated at its reference shape: {0}")]
     Start(Error),
@@ -46,6 +49,14 @@ pub enum Reason {
         estimated: f64,
         /// The elements of the last mesh.
         elements: usize,
+    },
+    /// Every equilibrium that was found is unstable. The last state of the failure is one.
+    #[error(
+        "an equilibrium was found, but no stable one ({stability}); accept_unstable takes it as the answer"
+    )]
+    Unstable {
+        /// How it is unstable.
+        stability: Stability,
     },
     /// The iteration limit was reached.
     #[error(
