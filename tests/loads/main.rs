@@ -7,4 +7,5 @@ mod shooting;
 
 mod derivatives;
 mod solved;
+mod strong_form;
 mod tendons;
