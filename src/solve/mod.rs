@@ -16,10 +16,12 @@ mod report;
 mod solution;
 mod statics;
 mod sweep;
+mod tendon_length;
 mod workspace;
 
 pub use failure::{Failure, Reason};
 pub use report::{ErrorEstimate, Iteration, Report};
 pub use solution::{Node, StaticSolution};
 pub use statics::{Order, Statics};
+pub use tendon_length::TendonSolution;
 pub use workspace::Workspace;
