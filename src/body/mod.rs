@@ -7,9 +7,11 @@
 
 mod mass;
 mod reference;
+mod viscosity;
 
 pub use mass::{Density, HasMass, LineDensity, LineMass, MassModel, Massless};
 pub use reference::ReferenceShape;
+pub use viscosity::{Dissipative, IsotropicViscosity, Viscous, ViscosityMatrix, ViscosityModel};
 
 use num_dual::Dual64;
 
