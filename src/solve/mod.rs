@@ -6,6 +6,7 @@
 mod cascade;
 mod chain;
 mod describe;
+pub mod dynamics;
 mod equilibrium;
 mod estimate;
 mod failure;
