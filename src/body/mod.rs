@@ -11,7 +11,7 @@ mod viscosity;
 
 pub use mass::{Density, HasMass, LineDensity, LineMass, MassModel, Massless};
 pub use reference::ReferenceShape;
-pub use viscosity::{Dissipative, IsotropicViscosity, Viscous, ViscosityMatrix, ViscosityModel};
+pub use viscosity::{Dissipative, IsotropicViscosity, ViscosityMatrix, ViscosityModel, Viscous};
 
 use num_dual::Dual64;
 

@@ -107,9 +107,8 @@ impl<const S: usize> Legs<S> {
         node: &Twist,
         rate: &[Twist; S],
     ) -> ([Twist; S], Twist) {
-        let at = |leg: &Leg<S>, t: &[[f64; S]; S]| {
-            leg.pose.adjoint_inverse().apply(node) + leg.push(t, h, rate)
-        };
+        let at =
+            |leg: &Leg<S>, t: &[[f64; S]; S]| leg.pose.adjoint_inverse().apply(node) + leg.push(t, h, rate);
         (std::array::from_fn(|k| at(&self.stage[k], &table.stage[k])), at(&self.end, &table.end))
     }
 }
@@ -182,14 +181,8 @@ impl<const S: usize> AdjointElement<S> {
         let variations = Variations::new(table, &state.xi, state.h);
         let zero = Matrix6::zeros();
         let end_inverse = state.legs.end.pose.adjoint_inverse();
-        let mut element = Self {
-            a: [[zero; S]; S],
-            p: [zero; S],
-            q: [zero; S],
-            u: zero,
-            end: variations.end,
-            end_inverse,
-        };
+        let mut element =
+            Self { a: [[zero; S]; S], p: [zero; S], q: [zero; S], u: zero, end: variations.end, end_inverse };
         for k in 0..S {
             let weight = state.h * table.b[k];
             element.a[k][k] = state.stiffness[k] * weight;
@@ -211,7 +204,14 @@ impl<const S: usize> AdjointElement<S> {
 
     /// What a wrench Λ with the derivative D, acting where B leads, adds.
     #[inline(always)]
-    fn add(&mut self, b: &[TwistMap; S], inverse: &TwistMap, d: &Matrix6<f64>, wrench: &Wrench, geometric: bool) {
+    fn add(
+        &mut self,
+        b: &[TwistMap; S],
+        inverse: &TwistMap,
+        d: &Matrix6<f64>,
+        wrench: &Wrench,
+        geometric: bool,
+    ) {
         let n = if geometric { frame_change(wrench) - d } else { -d };
         let d_inverse = right(d, inverse);
         self.u += left(inverse, &d_inverse);

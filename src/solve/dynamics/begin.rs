@@ -26,20 +26,8 @@ impl<const S: usize> Present<S> {
         start: &Start,
         (tolerance, max_iterations, step): (f64, usize, f64),
     ) -> Result<Self, Reason> {
-        let at = |f: &Option<Box<dyn Fn(f64) -> Strain>>, s: f64| f.as_ref().map_or(Strain::zero(), |f| f(s));
         core.at_time(scene, start.time).map_err(Reason::Inadmissible)?;
-        if scene.is_free() {
-            core.base = start.base.unwrap_or(*scene.rod().base());
-        }
-        let mut points = vec![[Moving::still(); S]; core.grid.elements];
-        for i in 0..core.grid.elements {
-            for k in 0..S {
-                let s = core.grid.stage_s(i, k);
-                core.strain[i][k] = at(&start.strain, s);
-                points[i][k].strain_rate = at(&start.strain_rate, s);
-                check(&core.strain[i][k], s).and(check(&points[i][k].strain_rate, s))?;
-            }
-        }
+        let mut points = set_strains(core, scene, start)?;
         if start.balanced {
             balance(core, scene, tolerance, max_iterations)?;
         }
@@ -133,6 +121,28 @@ impl<const S: usize> Present<S> {
             }
         }
     }
+}
+
+/// Puts the strains of a start into `core`, and its rates into what is returned.
+pub(super) fn set_strains<B: Movable, const S: usize>(
+    core: &mut Core<S>,
+    scene: &Scene<'_, B>,
+    start: &Start,
+) -> Result<Vec<[Moving; S]>, Reason> {
+    let at = |f: &Option<Box<dyn Fn(f64) -> Strain>>, s: f64| f.as_ref().map_or(Strain::zero(), |f| f(s));
+    if scene.is_free() {
+        core.base = start.base.unwrap_or(*scene.rod().base());
+    }
+    let mut points = vec![[Moving::still(); S]; core.grid.elements];
+    for i in 0..core.grid.elements {
+        for k in 0..S {
+            let s = core.grid.stage_s(i, k);
+            core.strain[i][k] = at(&start.strain, s);
+            points[i][k].strain_rate = at(&start.strain_rate, s);
+            check(&core.strain[i][k], s).and(check(&points[i][k].strain_rate, s))?;
+        }
+    }
+    Ok(points)
 }
 
 fn check(strain: &Strain, s: f64) -> Result<(), Reason> {

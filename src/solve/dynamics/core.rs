@@ -186,8 +186,7 @@ impl<const S: usize> Core<S> {
                 self.force[i][k] = force * grid.weight(k);
             }
             let at_end = self.node_wrench[i + 1];
-            let (at_start, at_stages) =
-                self.legs[i].balance(&grid.table, grid.h(), &at_end, &self.force[i]);
+            let (at_start, at_stages) = self.legs[i].balance(&grid.table, grid.h(), &at_end, &self.force[i]);
             self.node_wrench[i] = at_start;
             for k in 0..S {
                 self.residual[i][k] = self.wrench[i][k] * grid.weight(k) - at_stages[k];

@@ -7,10 +7,10 @@ use super::grid::Grid;
 use super::march::{How, Made, March};
 use super::options::{Adaptive, Dynamics, Step};
 use super::present::Present;
+use super::relation::Relation;
 use super::report::StepReport;
 use super::scene::{Movable, Scene};
 use super::scheme::Scheme;
-use super::relation::Relation;
 use super::state::{SavedMemory, Start, State};
 use crate::error::Error;
 
@@ -33,6 +33,18 @@ pub(super) struct Run<'s, 'r, B, const S: usize> {
     next: f64,
 }
 
+/// Memory for a scene on the mesh of the options.
+pub(super) fn on_mesh<B: Movable, const S: usize>(
+    options: &Dynamics,
+    scene: &Scene<'_, B>,
+    time: f64,
+) -> Result<Core<S>, Box<Failure>> {
+    match Grid::new(scene.rod().body(), options.elements) {
+        Ok(grid) => Ok(Core::new(grid)),
+        Err(error) => Err(Failure::early(time, Reason::Inadmissible(error))),
+    }
+}
+
 /// A step that ends closer to the limit than this, relative to its length, is made to end there.
 const CLOSE: f64 = 1e-6;
 
@@ -43,8 +55,7 @@ impl<'s, 'r, B: Movable, const S: usize> Run<'s, 'r, B, S> {
         start: &Start,
     ) -> Result<Self, Box<Failure>> {
         let early = |reason| Failure::early(start.time, reason);
-        let grid = Grid::new(scene.rod().body(), options.elements).map_err(|e| early(Reason::Inadmissible(e)))?;
-        let mut core = Core::new(grid);
+        let mut core = on_mesh(options, scene, start.time)?;
         let numbers = (options.tolerance, options.max_iterations.max(50), options.first_step());
         let present = Present::begin(&mut core, scene, start, numbers).map_err(early)?;
         Ok(Self::with(options, scene, core, present))
@@ -56,8 +67,7 @@ impl<'s, 'r, B: Movable, const S: usize> Run<'s, 'r, B, S> {
         state: &State,
     ) -> Result<Self, Box<Failure>> {
         let early = |error| Failure::early(state.time, Reason::Options(error));
-        let grid = Grid::new(scene.rod().body(), options.elements).map_err(early)?;
-        let mut core = Core::new(grid);
+        let mut core = on_mesh(options, scene, state.time)?;
         let mut present = Present::restore(state, options.elements).map_err(early)?;
         core.base = present.base.pose;
         present.hold(&mut core);
@@ -87,7 +97,8 @@ impl<'s, 'r, B: Movable, const S: usize> Run<'s, 'r, B, S> {
 
     fn recall(&mut self, memory: &SavedMemory) -> Result<(), Error> {
         let quantity = "saved memory of a run";
-        let wrong = Error::Invalid { quantity, value: self.core.grid.elements as f64, requirement: "of this mesh" };
+        let wrong =
+            Error::Invalid { quantity, value: self.core.grid.elements as f64, requirement: "of this mesh" };
         self.next = memory.next_step;
         self.march.last_step = memory.last_step;
         self.march.memory.rate = memory.rate;

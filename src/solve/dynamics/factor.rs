@@ -251,4 +251,3 @@ impl BaseRows {
         Some(Matrix6::from_fn(|r, c| inverse[(r, c)] * unit(r) * unit(c)))
     }
 }
-

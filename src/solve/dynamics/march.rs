@@ -49,8 +49,11 @@ pub(super) struct Made {
 impl<const S: usize> March<S> {
     pub(super) fn new(elements: usize) -> Self {
         let zero = Twist::zero();
-        let slopes =
-            Slopes { base: [zero; 2], points: vec![[(zero, zero, Strain::zero()); S]; elements], power: [0.0; 2] };
+        let slopes = Slopes {
+            base: [zero; 2],
+            points: vec![[(zero, zero, Strain::zero()); S]; elements],
+            power: [0.0; 2],
+        };
         let rates = vec![[Strain::zero(); S]; elements];
         Self {
             memory: Memory::empty(),
@@ -347,8 +350,7 @@ impl Alpha {
                 let phi = core.rates[i][k].phi;
                 point.algorithmic = (phi - point.velocity * h - point.algorithmic * ahead) * scale;
                 let change = core.strain[i][k] - point.strain;
-                point.strain_second =
-                    (change - point.strain_rate * h - point.strain_second * ahead) * scale;
+                point.strain_second = (change - point.strain_rate * h - point.strain_second * ahead) * scale;
             }
         }
         let base = &mut present.base;

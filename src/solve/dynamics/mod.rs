@@ -12,6 +12,7 @@ mod failure;
 mod frame;
 mod grid;
 mod march;
+mod modes;
 mod newton;
 mod options;
 mod present;
@@ -23,6 +24,7 @@ mod state;
 
 pub use failure::{Failure, Reason};
 pub use frame::{Energies, Frame, MovingNode, MovingStage};
+pub use modes::{Mode, ModeStage};
 pub use options::{Adaptive, Dynamics, Step, Stepper};
 pub use report::StepReport;
 pub use scene::{Movable, Scene};

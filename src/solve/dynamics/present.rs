@@ -111,7 +111,11 @@ impl<const S: usize> Present<S> {
         }
         let numbers = parts.iter().flat_map(|part| part.iter().flatten()).chain(&state.base_pose);
         if let Some(&value) = numbers.chain(state.base.iter().flatten()).find(|v| !v.is_finite()) {
-            return Err(Error::Invalid { quantity: "number of the saved state", value, requirement: "finite" });
+            return Err(Error::Invalid {
+                quantity: "number of the saved state",
+                value,
+                requirement: "finite",
+            });
         }
         let point = |j: usize| Moving {
             pose: Pose::identity(),

@@ -117,7 +117,11 @@ mod tests {
         for rho in [0.0, 0.5, 0.9, 1.0] {
             let a = Alpha::new(rho);
             assert!((a.gamma - (0.5 - a.alpha_m + a.alpha_f)).abs() < 1e-15);
-            assert!(a.alpha_m <= a.alpha_f + 1e-15 && a.alpha_f <= 0.5 && a.beta >= 0.25 + 0.5 * (a.alpha_f - a.alpha_m) - 1e-15);
+            assert!(
+                a.alpha_m <= a.alpha_f + 1e-15
+                    && a.alpha_f <= 0.5
+                    && a.beta >= 0.25 + 0.5 * (a.alpha_f - a.alpha_m) - 1e-15
+            );
         }
     }
 }

@@ -96,6 +96,11 @@ impl Start {
         Self { strain: Some(Box::new(strain)), balanced: true, ..Self::at_rest() }
     }
 
+    /// The same with its strains improved to a static equilibrium of the mesh of the motion, from which it then begins at rest.
+    pub fn balanced(self) -> Self {
+        Self { balanced: true, ..self }
+    }
+
     /// The same at another time, s.
     pub fn at_time(self, time: f64) -> Self {
         Self { time, ..self }
