@@ -2,6 +2,9 @@
 #![allow(clippy::unwrap_used)] // a test that cannot go on should panic
 
 mod cases;
+mod damping;
+mod energy;
 mod release;
 mod stability;
+mod stepping;
 mod vibration;

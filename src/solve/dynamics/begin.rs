@@ -90,8 +90,6 @@ impl<const S: usize> Present<S> {
         core.newton_step(&rows, scene.is_free())?;
         core.problem.stiffness = 1.0;
         let mut node = Twist::from_vector(&core.base_step);
-        self.base.acceleration += node;
-        self.base.algorithmic = self.base.acceleration;
         for (i, points) in self.points.iter_mut().enumerate() {
             let rate: [Twist; S] = std::array::from_fn(|k| as_twist(&core.step[i][k]));
             let (stage, end) = core.legs[i].velocities(&core.grid.table, core.grid.h(), &node, &rate);
@@ -102,6 +100,20 @@ impl<const S: usize> Present<S> {
                 points[k].strain_second = core.step[i][k];
             }
             node = end;
+        }
+        if scene.is_free() {
+            // what has no inertia then moves as far as a step lets it, and not as far as next to no stiffness would
+            core.problem.stiffness = step * step;
+            core.factor(&rows)?;
+            core.newton_step(&rows, true)?;
+            core.problem.stiffness = 1.0;
+            self.base.acceleration = Twist::from_vector(&core.base_step);
+            self.base.algorithmic = self.base.acceleration;
+            for (points, second) in self.points.iter_mut().zip(&core.step) {
+                for k in 0..S {
+                    points[k].strain_second = second[k];
+                }
+            }
         }
         Ok(())
     }

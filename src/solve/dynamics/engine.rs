@@ -1,5 +1,6 @@
 //! A run of steps on a mesh of one order.
 
+use super::conserve::Kept;
 use super::core::Core;
 use super::failure::{Failure, Reason};
 use super::frame::Frame;
@@ -31,6 +32,8 @@ pub(super) struct Run<'s, 'r, B, const S: usize> {
     step: Step,
     /// The step an adaptive run would take next.
     next: f64,
+    /// What a conserving run keeps.
+    kept: Option<Kept>,
 }
 
 /// Memory for a scene on the mesh of the options.
@@ -58,7 +61,13 @@ impl<'s, 'r, B: Movable, const S: usize> Run<'s, 'r, B, S> {
         let mut core = on_mesh(options, scene, start.time)?;
         let numbers = (options.tolerance, options.max_iterations.max(50), options.first_step());
         let present = Present::begin(&mut core, scene, start, numbers).map_err(early)?;
-        Ok(Self::with(options, scene, core, present))
+        let mut run = Self::with(options, scene, core, present);
+        if options.conserve {
+            let Run { present, core, .. } = &mut run;
+            let kept = Kept::of(present, core, scene).map_err(|error| early(Reason::Inadmissible(error)))?;
+            run.kept = Some(kept);
+        }
+        Ok(run)
     }
 
     pub(super) fn resume(
@@ -78,6 +87,9 @@ impl<'s, 'r, B: Movable, const S: usize> Run<'s, 'r, B, S> {
             }
         }
         let mut run = Self::with(options, scene, core, present);
+        if options.conserve {
+            run.kept = state.kept.map(|[energy, momentum @ ..]| Kept { energy, momentum: momentum.into() });
+        }
         if let Some(memory) = &state.memory {
             run.recall(memory).map_err(early)?;
         }
@@ -92,7 +104,7 @@ impl<'s, 'r, B: Movable, const S: usize> Run<'s, 'r, B, S> {
             max_iterations: options.max_iterations,
             track_work: options.track_work,
         };
-        Self { scene, core, present, march, how, step: options.step, next: options.first_step() }
+        Self { scene, core, present, march, how, step: options.step, next: options.first_step(), kept: None }
     }
 
     fn recall(&mut self, memory: &SavedMemory) -> Result<(), Error> {
@@ -116,6 +128,11 @@ impl<'s, 'r, B: Movable, const S: usize> Run<'s, 'r, B, S> {
 
     fn accept(&mut self, dt: f64, made: &Made) {
         self.march.accept(&self.core, &mut self.present, dt, &self.how.scheme, made);
+        if let Some(kept) = self.kept {
+            // strains that Newton's method accepted can be evaluated
+            let done = kept.restore(&mut self.present, &mut self.core, self.scene);
+            debug_assert!(done.is_ok());
+        }
     }
 
     fn fail(&mut self, time: f64, reason: Reason) -> Box<Failure> {
@@ -223,6 +240,8 @@ impl<B: Movable, const S: usize> Engine for Run<'_, '_, B, S> {
     fn save(&self) -> State {
         let mut state = self.present.save();
         let memory = &self.march.memory;
+        state.kept =
+            self.kept.map(|Kept { energy, momentum: m }| [energy, m[0], m[1], m[2], m[3], m[4], m[5]]);
         state.memory = Some(SavedMemory {
             next_step: self.next,
             last_step: self.march.last_step,

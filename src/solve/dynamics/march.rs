@@ -23,7 +23,7 @@ pub(super) struct Slopes<const S: usize> {
 pub(super) struct March<const S: usize> {
     pub(super) memory: Memory,
     slopes: Vec<Slopes<S>>,
-    /// The step before, and ξ̇ at its last two instants before the end, for the guess; 0 if there is none.
+    /// The step before, 0 if there is none, and for the guess: ξ̇ at its last two instants before the end, or the mean ξ̇ of the last two steps.
     pub(super) last_step: f64,
     pub(super) last_rates: [Vec<[Strain; S]>; 2],
     pub(super) last_base: [Twist; 2],
@@ -93,6 +93,7 @@ impl<const S: usize> March<S> {
             Scheme::GeneralisedAlpha { rho } => {
                 present.dissipated += 0.5 * dt * (present.power[0] + made.power[0]);
                 present.work += 0.5 * dt * (present.power[1] + made.power[1]);
+                self.keep_differences(core, present, dt);
                 Alpha::new(*rho).accelerate(core, present, dt);
             }
         }
@@ -122,16 +123,7 @@ impl<const S: usize> March<S> {
             self.set_offsets(core, present, stage, dt);
             core.at_time(scene, present.time + C[stage] * dt).map_err(Reason::Inadmissible)?;
             self.guess(core, scene, present, stage, dt);
-            let Self { memory, .. } = self;
-            let effort = &mut made.effort;
-            Newton {
-                tolerance: how.tolerance,
-                max_iterations: how.max_iterations,
-                memory,
-                effort,
-                held: false,
-            }
-            .solve(core, scene)?;
+            self.solve(core, scene, present, how, &mut made)?;
             let slopes = &mut self.slopes[stage];
             slopes.base = [core.base_rates.slope, core.base_rates.acceleration];
             for i in 0..core.grid.elements {
@@ -160,6 +152,51 @@ impl<const S: usize> March<S> {
         };
         present.dissipated += sum(0);
         present.work += sum(1);
+    }
+
+    /// Mean rates of the last two steps.
+    fn keep_differences(&mut self, core: &Core<S>, present: &Present<S>, dt: f64) {
+        let first = self.last_step == 0.0;
+        self.last_rates.swap(0, 1);
+        for (i, points) in present.points.iter().enumerate() {
+            for (k, point) in points.iter().enumerate() {
+                self.last_rates[0][i][k] = (core.strain[i][k] - point.strain) * (1.0 / dt);
+            }
+        }
+        self.last_base = [core.base_rates.phi * (1.0 / dt), self.last_base[0]];
+        if first {
+            let [last, before] = &mut self.last_rates;
+            before.clone_from(last);
+            self.last_base[1] = self.last_base[0];
+        }
+    }
+
+    /// Solves for an instant from the guess in `core`; if that fails, from the strains the step began with.
+    fn solve<B: Movable>(
+        &mut self,
+        core: &mut Core<S>,
+        scene: &Scene<'_, B>,
+        present: &Present<S>,
+        how: &How,
+        made: &mut Made,
+    ) -> Result<(), Reason> {
+        let (memory, effort) = (&mut self.memory, &mut made.effort);
+        let mut newton = Newton {
+            tolerance: how.tolerance,
+            max_iterations: how.max_iterations,
+            memory,
+            effort,
+            held: false,
+        };
+        let Err(first) = newton.solve(core, scene) else { return Ok(()) };
+        for (strain, points) in core.strain.iter_mut().zip(&present.points) {
+            *strain = points.map(|point| point.strain);
+        }
+        if scene.is_free() {
+            core.base = present.base.pose;
+        }
+        newton.memory.factored = None;
+        newton.solve(core, scene).map_err(|_| first)
     }
 
     /// φ̇₀ = −Σ a_ij φ̇_j/γ, η̇₀ = −η_n/(γΔt) − Σ a_ij η̇_j/γ, ξ̇₀ = −Σ a_ij ξ̇_j/γ.
@@ -291,8 +328,14 @@ impl<const S: usize> March<S> {
         let base = present.base;
         core.problem.base_offset = offset(base.velocity, base.acceleration, base.algorithmic);
         core.at_time(scene, present.time + h).map_err(Reason::Inadmissible)?;
+        let known = self.last_step > 0.0;
         if scene.is_free() {
-            let phi = base.velocity * h + base.algorithmic * (0.5 * h * h);
+            let [last, before] = self.last_base;
+            let phi = if known {
+                last * (2.0 * h) - before * h
+            } else {
+                base.velocity * h + base.algorithmic * (0.5 * h * h)
+            };
             core.base = base.pose * phi.exp();
         }
         for (i, points) in present.points.iter().enumerate() {
@@ -301,12 +344,16 @@ impl<const S: usize> March<S> {
                 let (rate, second) = (point.strain_rate, point.strain_second);
                 let p = rate * h + second * (h * h * (0.5 - beta));
                 core.problem.strain_offset[i][k] = rate + second * (h * (1.0 - gamma)) - p * velocity;
-                core.strain[i][k] = point.strain + rate * h + second * (0.5 * h * h);
+                // differences of the strains themselves: in what has no inertia, the rates of the scheme are noise
+                core.strain[i][k] = point.strain
+                    + if known {
+                        self.last_rates[0][i][k] * (2.0 * h) - self.last_rates[1][i][k] * h
+                    } else {
+                        rate * h + second * (0.5 * h * h)
+                    };
             }
         }
-        let (memory, effort) = (&mut self.memory, &mut made.effort);
-        Newton { tolerance: how.tolerance, max_iterations: how.max_iterations, memory, effort, held: false }
-            .solve(core, scene)?;
+        self.solve(core, scene, present, how, &mut made)?;
         made.power = core.power(how.track_work);
         let mut largest: f64 = 0.0;
         for (i, points) in present.points.iter().enumerate() {

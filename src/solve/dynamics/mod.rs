@@ -5,6 +5,7 @@
 //! a static problem with another load, whose tangent is exact but for what is of higher order than the element.
 
 mod begin;
+mod conserve;
 mod core;
 mod engine;
 mod factor;

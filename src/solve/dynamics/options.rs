@@ -84,6 +84,9 @@ pub struct Dynamics {
     pub max_steps: usize,
     /// Whether the work of the loads is followed: see [`Energies::work`](super::Energies::work).
     pub track_work: bool,
+    /// Whether energy and momenta keep the values they have at the start, by moving the velocities a little after every step: for an undamped
+    /// rod with a free base on which nothing acts.
+    pub conserve: bool,
 }
 
 impl Default for Dynamics {
@@ -98,6 +101,7 @@ impl Default for Dynamics {
             max_iterations: 30,
             max_steps: 10_000_000,
             track_work: false,
+            conserve: false,
         }
     }
 }
@@ -137,7 +141,7 @@ impl Dynamics {
         scene: &'s Scene<'_, B>,
         start: &Start,
     ) -> Result<Stepper<'s>, Box<Failure>> {
-        self.check().map_err(|error| Failure::early(start.time, Reason::Options(error)))?;
+        self.check(scene).map_err(|error| Failure::early(start.time, Reason::Options(error)))?;
         let engine: Box<dyn Engine + 's> = match self.order {
             Order::Two => Box::new(Run::<B, 1>::begin(self, scene, start)?),
             Order::Four => Box::new(Run::<B, 2>::begin(self, scene, start)?),
@@ -155,7 +159,7 @@ impl Dynamics {
         scene: &'s Scene<'_, B>,
         state: &State,
     ) -> Result<Stepper<'s>, Box<Failure>> {
-        self.check().map_err(|error| Failure::early(state.time, Reason::Options(error)))?;
+        self.check(scene).map_err(|error| Failure::early(state.time, Reason::Options(error)))?;
         let engine: Box<dyn Engine + 's> = match self.order {
             Order::Two => Box::new(Run::<B, 1>::resume(self, scene, state)?),
             Order::Four => Box::new(Run::<B, 2>::resume(self, scene, state)?),
@@ -171,7 +175,7 @@ impl Dynamics {
         }
     }
 
-    fn check(&self) -> Result<(), Error> {
+    fn check<B: Movable>(&self, scene: &Scene<'_, B>) -> Result<(), Error> {
         let invalid = |quantity, value, requirement| Err(Error::Invalid { quantity, value, requirement });
         if self.elements == 0 || self.elements > MAX_ELEMENTS {
             return invalid("number of elements", self.elements as f64, "from 1 to a hundred thousand");
@@ -195,6 +199,13 @@ impl Dynamics {
             && !(0.0..=1.0).contains(&rho)
         {
             return invalid("rho at infinity", rho, "from 0 to 1");
+        }
+        if self.conserve && !scene.is_alone() {
+            return invalid(
+                "conservation asked for",
+                1.0,
+                "of a rod that flies freely, without loads and damping",
+            );
         }
         Ok(())
     }

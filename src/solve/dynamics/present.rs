@@ -89,6 +89,7 @@ impl<const S: usize> Present<S> {
             dissipated: self.dissipated,
             work: self.work,
             power: self.power,
+            kept: None,
             memory: None,
         }
     }

@@ -115,6 +115,13 @@ impl<'r, B: Movable> Scene<'r, B> {
         matches!(self.base, Base::Free)
     }
 
+    /// Whether nothing acts on the rod, and nothing in it takes energy.
+    pub(super) fn is_alone(&self) -> bool {
+        let tip = self.tip_loads.is_empty() && self.rod.tip_loads().is_empty();
+        let damped = self.rod.body().viscosity(0.0).is_ok_and(|viscosity| viscosity.is_some());
+        self.is_free() && tip && !self.has_loads() && !damped
+    }
+
     /// Pose, body velocity and body acceleration of the base.
     pub(super) fn base(&self, t: f64) -> Result<(Pose, Twist, Twist)> {
         let Base::Driven(motion) = &self.base else {

@@ -20,6 +20,7 @@ pub struct State {
     pub(super) dissipated: f64,
     pub(super) work: f64,
     pub(super) power: [f64; 2],
+    pub(super) kept: Option<[f64; 7]>,
     pub(super) memory: Option<SavedMemory>,
 }
 
@@ -41,6 +42,13 @@ impl State {
     /// The time, s.
     pub fn time(&self) -> f64 {
         self.time
+    }
+}
+
+impl State {
+    /// Drops what is remembered of the steps before: factors, step size and guess. A run with other steps or another scheme begins afresh.
+    pub fn forget_steps(&mut self) {
+        self.memory = None;
     }
 }
 
