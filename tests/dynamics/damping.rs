@@ -1,7 +1,7 @@
 use crate::cases::{beam, cases, circle, fixed, number};
 use hyperrod::body::{ViscosityMatrix, Viscous};
-use hyperrod::solve::dynamics::{Dynamics, Scene, Scheme, Start, Step};
-use hyperrod::{Pose, Rod, Strain};
+use hyperrod::solve::dynamics::{Dynamics, Scene, Scheme, Start};
+use hyperrod::{Pose, Rod};
 use nalgebra::{Matrix6, Vector6};
 use serde_json::Value;
 
@@ -15,13 +15,13 @@ fn damped(case: &Value) -> Rod<Damped> {
     Rod::clamped(body.with_viscosity_matrix(viscosity).unwrap(), Pose::identity())
 }
 
-/// The first bending mode, so small that its curvature is nothing against the length.
-fn plucked(scene: &Scene<'_, Damped>, dynamics: &Dynamics) -> Start {
+/// The first bending mode, with a tip displacement of so many metres.
+fn plucked(scene: &Scene<'_, Damped>, dynamics: &Dynamics, size: f64) -> Start {
     let mode = dynamics.modes(scene, &Start::at_rest(), 1).unwrap().remove(0);
     let tip = mode.nodes[mode.nodes.len() - 1].linear.norm();
     Start::at_rest().with_strain(move |s| {
         let nearest = mode.stages.iter().min_by(|a, b| (a.s - s).abs().total_cmp(&(b.s - s).abs()));
-        nearest.unwrap().strain * (1e-6 / tip)
+        nearest.unwrap().strain * (size / tip)
     })
 }
 
@@ -36,7 +36,7 @@ fn an_oscillation_decays_as_linear_theory_says() {
         let decay = number(&case, "decay_rate");
         for (scheme, steps) in [(Scheme::Esdirk43, 40), (Scheme::GeneralisedAlpha { rho: 1.0 }, 800)] {
             let dynamics = Dynamics { scheme, ..fixed(period / f64::from(steps)) };
-            let mut stepper = dynamics.start(&scene, &plucked(&scene, &dynamics)).unwrap();
+            let mut stepper = dynamics.start(&scene, &plucked(&scene, &dynamics, 1e-6)).unwrap();
             let begin = stepper.frame().unwrap();
             let end = 3.0 * period;
             stepper.run_to(end).unwrap();
@@ -60,20 +60,17 @@ fn a_damped_rod_is_stable_at_any_step() {
     let scene = Scene::new(&rod);
     for scheme in [Scheme::Esdirk43, Scheme::GeneralisedAlpha { rho: 0.9 }] {
         for dt in [1e-5, 1e-3, 0.1, 10.0] {
-            let dynamics = Dynamics { scheme, step: Step::Fixed(dt), elements: 3, ..Dynamics::default() };
-            let bent =
-                Start::at_rest().with_strain(|_| Strain::from_array([0.0, 1e-3, 1e-3, 1e-4, 0.0, 1e-4]));
-            let mut stepper = dynamics.start(&scene, &bent).unwrap();
+            let dynamics = Dynamics { scheme, elements: 3, ..fixed(dt) };
+            let mut stepper = dynamics.start(&scene, &plucked(&scene, &dynamics, 1e-3)).unwrap();
             let begin = stepper.frame().unwrap().energies.total().unwrap();
             let mut last = begin;
             for _ in 0..300 {
                 stepper.step().unwrap();
-                let now = stepper.frame().unwrap().energies.total().unwrap();
+                last = stepper.frame().unwrap().energies.total().unwrap();
                 // generalised-α keeps another energy: the true one may sway by a few parts in a hundred while it falls
-                assert!(now < begin * 1.05, "{scheme:?} dt {dt}: {now} J of {begin} J");
-                last = now;
+                assert!(last < begin * 1.05, "{scheme:?} dt {dt}: {last} J of {begin} J");
             }
-            assert!(last < begin, "{scheme:?} dt {dt}: {last} J of {begin} J");
+            assert!(last < begin * (1.0 + 1e-8), "{scheme:?} dt {dt}: {last} J of {begin} J");
         }
     }
 }

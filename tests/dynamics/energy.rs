@@ -1,41 +1,57 @@
 use crate::cases::{beam, circle, clamped, cylinder, fixed, ramp, sideways};
 use hyperrod::load::{DeadWrench, Gravity};
 use hyperrod::solve::Order;
-use hyperrod::solve::dynamics::{Dynamics, Frame, Scene, Scheme, Start};
+use hyperrod::solve::dynamics::{Dynamics, Frame, Scene, Scheme, Start, Stepper};
 use hyperrod::{Strain, Twist};
 use nalgebra::vector;
 
-/// A smooth large swing of the clamped cylinder without loads: bent as in its first mode by half a radian, then let go.
+/// Relative change of the energy in 1e4 steps, from means over a tenth of the run at either end: within a period the energy sways.
+fn drift(stepper: &mut Stepper<'_>, steps: u32) -> f64 {
+    let mut means = [0.0; 2];
+    let mut begin = 0.0;
+    for step in 0..steps {
+        stepper.step().unwrap();
+        let tenth = step * 10 / steps;
+        if tenth == 0 || tenth == 9 {
+            let energies = stepper.frame().unwrap().energies;
+            let total = energies.kinetic + energies.elastic;
+            means[usize::from(tenth == 9)] += total * 10.0 / f64::from(steps);
+            begin = if step == 0 { total } else { begin };
+        }
+    }
+    (means[1] - means[0]) / begin / 0.9 * 1e4 / f64::from(steps)
+}
+
+/// Let go from the shape of its first mode, bent by a radian over its length.
 #[test]
-fn a_clamped_swing_keeps_its_energy() {
+fn a_clamped_swing_keeps_its_energy_by_generalised_alpha() {
     let rod = clamped(cylinder());
     let scene = Scene::new(&rod);
-    for (scheme, steps, dt) in
-        [(Scheme::GeneralisedAlpha { rho: 1.0 }, 10_000, 2e-3), (Scheme::Esdirk43, 2500, 1e-3)]
-    {
-        let dynamics = Dynamics { scheme, elements: 3, order: Order::Four, tolerance: 1e-13, ..fixed(dt) };
-        let mode = dynamics.modes(&scene, &Start::at_rest(), 1).unwrap().remove(0);
-        let largest = mode.stages.iter().map(|m| m.strain.angular.norm()).fold(0.0, f64::max);
-        let start = Start::at_rest().with_strain(move |s| {
-            let nearest = mode.stages.iter().min_by(|a, b| (a.s - s).abs().total_cmp(&(b.s - s).abs()));
-            nearest.unwrap().strain * (1.0 / 0.4 / largest)
-        });
-        let mut stepper = dynamics.start(&scene, &start).unwrap();
-        // means over a tenth of the run at either end: within a period the energy of a scheme sways
-        let mut means = [0.0; 2];
-        let begin = stepper.frame().unwrap().energies.total().unwrap();
-        for step in 0..steps {
-            stepper.step().unwrap();
-            let tenth = step * 10 / steps;
-            if tenth == 0 || tenth == 9 {
-                let total = stepper.frame().unwrap().energies.total().unwrap();
-                means[usize::from(tenth == 9)] += total * 10.0 / f64::from(steps);
-            }
-        }
-        let per_ten_thousand = (means[1] - means[0]) / begin / 0.9 * 1e4 / f64::from(steps);
-        println!("{scheme:?}: {per_ten_thousand:.2e} of {begin} J per 1e4 steps");
-        assert!(per_ten_thousand.abs() < 1e-8, "{scheme:?}: {per_ten_thousand:.2e}");
-    }
+    let scheme = Scheme::GeneralisedAlpha { rho: 1.0 };
+    let dynamics = Dynamics { scheme, elements: 3, order: Order::Four, tolerance: 1e-13, ..fixed(2e-3) };
+    let mode = dynamics.modes(&scene, &Start::at_rest(), 1).unwrap().remove(0);
+    let largest = mode.stages.iter().map(|m| m.strain.angular.norm()).fold(0.0, f64::max);
+    let start = Start::at_rest().with_strain(move |s| {
+        let nearest = mode.stages.iter().min_by(|a, b| (a.s - s).abs().total_cmp(&(b.s - s).abs()));
+        nearest.unwrap().strain * (1.0 / 0.4 / largest)
+    });
+    let change = drift(&mut dynamics.start(&scene, &start).unwrap(), 10_000);
+    println!("{change:.2e}");
+    assert!(change.abs() < 1e-8, "{change:.2e}");
+}
+
+/// Gravity comes and goes within 0.3 s and leaves the cylinder swinging by 30 cm; ESDIRK, which is not made to keep energy, keeps that of
+/// a motion it resolves.
+#[test]
+fn a_clamped_swing_keeps_its_energy_by_runge_kutta() {
+    let rod = clamped(cylinder());
+    let scene = Scene::new(&rod).with_load(sideways(), |t| 0.3 * (ramp(t) - ramp(t - 0.2)));
+    let dynamics = Dynamics { elements: 3, order: Order::Four, tolerance: 1e-13, ..fixed(5e-4) };
+    let mut stepper = dynamics.start(&scene, &Start::at_rest()).unwrap();
+    stepper.run_to(0.3).unwrap();
+    let change = drift(&mut stepper, 3000);
+    println!("{change:.2e}");
+    assert!(change.abs() < 1e-8, "{change:.2e}");
 }
 
 /// Energy + dissipated − work is constant: gravity and a tip force are ramped, the clamp is shaken. The wrench at a driven clamp

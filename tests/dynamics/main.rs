@@ -4,6 +4,7 @@
 mod cases;
 mod damping;
 mod energy;
+mod orders;
 mod release;
 mod stability;
 mod stepping;

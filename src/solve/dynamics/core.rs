@@ -161,6 +161,9 @@ impl<const S: usize> Core<S> {
                 }
             }
         }
+        if !self.grid.viscosity.is_empty() && !scene.is_free() && self.problem.relation != Relation::Static {
+            self.rates_from_velocities();
+        }
         for (i, viscosity) in self.grid.viscosity.iter().enumerate() {
             for k in 0..S {
                 let damping = viscosity[k] * self.strain_rate[i][k].to_vector();

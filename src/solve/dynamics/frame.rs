@@ -151,6 +151,9 @@ impl<const S: usize> Present<S> {
     /// Describes this state.
     pub(super) fn describe<B: Movable>(&self, core: &mut Core<S>, scene: &Scene<'_, B>) -> Result<Frame> {
         self.evaluate(core, scene)?;
+        if !scene.is_free() {
+            core.rates_from_velocities();
+        }
         let mut velocities = Vec::with_capacity(core.grid.elements + 1);
         core.node_velocities(|velocity| velocities.push(velocity));
         let nodes = velocities

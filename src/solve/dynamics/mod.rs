@@ -22,6 +22,7 @@ mod report;
 mod scene;
 mod scheme;
 mod state;
+mod strain_rates;
 
 pub use failure::{Failure, Reason};
 pub use frame::{Energies, Frame, MovingNode, MovingStage};
