@@ -8,6 +8,7 @@ mod cascade;
 mod chain;
 mod continuation;
 mod describe;
+pub mod dynamics;
 mod equilibrium;
 mod estimate;
 mod failure;
