@@ -58,6 +58,19 @@ pub enum Error {
         /// Section coordinate, m.
         y: f64,
     },
+    /// A section whose equilibrium is no minimum of its energy: it has lost its stability, or too few functions let the search end at a
+    /// saddle.
+    #[error(
+        "the section at s = {s} m is unstable: {mode} lowers its energy (eigenvalue {eigenvalue:.1e} of the largest); try more functions, or a smaller strain"
+    )]
+    SectionUnstable {
+        /// The displacement that weighs most in the direction of lower energy.
+        mode: String,
+        /// The smallest eigenvalue of the Hessian of the energy in the displacement, relative to the largest.
+        eigenvalue: f64,
+        /// Arc length, m.
+        s: f64,
+    },
     /// A linear system without a unique solution, for instance a tangent that lost its stiffness.
     #[error("{matrix} is singular at s = {s} m")]
     Singular {

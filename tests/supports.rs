@@ -265,3 +265,32 @@ fn a_rod_that_is_free_to_move_is_refused_by_name() {
     let outside = Rod::clamped(straight(), frame).with_support(1.5, Support::pinned(frame)).unwrap_err();
     assert!(matches!(outside, Error::Invalid { quantity: "arc length of a joint", .. }));
 }
+
+/// Balance about the centre of mass, and Castigliano's theorem: the energy changes with the mass by g times the height of its centre.
+#[test]
+fn a_payload_hangs_from_its_centre_of_mass() {
+    use hyperrod::load::Payload;
+    let centre = vector![0.02, -0.03, 0.1];
+    let payload = Payload::new(0.05).unwrap().with_centre(centre).unwrap();
+    let pose = Pose::new(
+        UnitQuaternion::from_scaled_axis(vector![0.0, 1.3, 0.2]).to_rotation_matrix().into_inner(),
+        vector![0.1, 0.0, 0.3],
+    );
+    let solution = fine().solve(&Rod::clamped(strip(), pose).with_tip_load(payload)).unwrap();
+    let tip = solution.tip();
+    // the moment about the centre of mass vanishes, and the potential is that of a weight there
+    let weight = vector![0.0, 0.0, -9.80665 * 0.05];
+    let force = tip.pose.rotation * tip.wrench.force;
+    assert!((force - weight).norm() < 1e-15);
+    assert!((tip.wrench.moment - centre.cross(&tip.wrench.force)).norm() < 1e-15);
+    let height = tip.pose.transform_point(&centre).z;
+    assert!((solution.load_potential().unwrap() + weight.z * height).abs() < 1e-15);
+    // central difference: (1e-3)² of the energy's curvature in the mass
+    let energy = |mass: f64| {
+        let payload = Payload::new(mass).unwrap().with_centre(centre).unwrap();
+        let solution = fine().solve(&Rod::clamped(strip(), pose).with_tip_load(payload)).unwrap();
+        solution.strain_energy() + solution.load_potential().unwrap()
+    };
+    let slope = (energy(0.05005) - energy(0.04995)) / 1e-4;
+    assert!((slope - 9.80665 * height).abs() < 1e-6, "{slope} {}", 9.80665 * height);
+}

@@ -66,6 +66,12 @@ impl Drawing {
         self.outline(outline, RGBColor(185, 185, 185), 1.0)
     }
 
+    /// A filled outline without a line around it.
+    pub fn patch(mut self, outline: Vec<[f64; 2]>, color: RGBColor) -> Self {
+        self.items.push(Item::Area { outline, color, opacity: 1.0 });
+        self
+    }
+
     fn outline(mut self, mut points: Vec<[f64; 2]>, color: RGBColor, width: f64) -> Self {
         points.extend(points.first().copied());
         self.items.push(Item::Line { points, color, width });

@@ -1,15 +1,43 @@
 //! Loads: what acts on a rod per length or at its tip, with exact derivatives.
 //!
-//! A distributed load is a [`Load`] on bodies that have what it needs: [`Gravity`] is one on bodies with a mass. A [`TipLoad`] acts at the
-//! free end. Both are given in the body frame of the section they act on, with their derivative in a small displacement ζ of that frame.
+//! A distributed load is a [`Load`] on bodies that have what it needs; a [`TipLoad`] acts at the free end. Both are given in the body frame of
+//! the section they act on, with their derivative in a small displacement ζ of that frame.
+//!
+//! | load | acts on | needs of the body | potential |
+//! |---|---|---|---|
+//! | [`Gravity`] | length | [a mass](crate::body::HasMass) | yes |
+//! | [`Buoyancy`] | length | [an area](crate::body::HasArea) | yes |
+//! | [`DeadLoad`], [`DeadWrench`] | length, tip | | of the force |
+//! | [`Payload`] | tip | | yes |
+//! | [`FollowerLoad`], [`FollowerWrench`] | length, tip | | no |
+//! | [`ElasticFoundation`] | length | | yes |
+//! | [`distributed`], [`distributed_on`], [`at_tip`]: a closure that gives the wrench | length, tip | what it asks for | no |
+//! | [`potential`], [`potential_at_tip`]: a closure that gives the energy | length, tip | | yes |
+//!
+//! What acts by the strain of the rod, as tendons and pressure chambers, is an [`Actuator`](crate::section::Actuator) of the section.
 //!
 //! What lives here knows bodies and poses; it knows no element and no solver.
 
+mod buoyancy;
+mod closure;
 mod dead_wrench;
+mod distributed;
+mod follower_wrench;
+mod foundation;
 mod gravity;
+mod payload;
 
+pub use buoyancy::Buoyancy;
+pub use closure::{
+    BodyLoadClosure, LoadClosure, LoadDual, PotentialClosure, PotentialDual, at_tip, distributed,
+    distributed_on, potential, potential_at_tip,
+};
 pub use dead_wrench::DeadWrench;
+pub use distributed::{DeadLoad, FollowerLoad, WrenchProfile};
+pub use follower_wrench::FollowerWrench;
+pub use foundation::ElasticFoundation;
 pub use gravity::Gravity;
+pub use payload::Payload;
 
 use nalgebra::Matrix6;
 

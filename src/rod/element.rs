@@ -4,6 +4,8 @@ use nalgebra::{Matrix3, Matrix6};
 
 use super::collocation::Collocation;
 use super::magnus::{exponent, exponent_derivative, taylor_data};
+use super::planar;
+use crate::body::Constraint;
 use crate::lie::{Pose, Twist, TwistMap, Wrench, se3, so3::hat};
 use crate::load::LoadWrench;
 use crate::material::Response;
@@ -100,6 +102,19 @@ impl<D: Scalar, const S: usize> Kinematics<D, S> {
     }
 }
 
+impl<const S: usize> Kinematics<f64, S> {
+    /// As [`new`](Self::new), in the plane where the constraint keeps the rod there.
+    #[inline(always)]
+    pub(crate) fn constrained(
+        table: &Collocation<S>,
+        xi: &[Twist; S],
+        h: f64,
+        constraint: &Constraint,
+    ) -> Self {
+        if planar::holds(constraint, xi) { planar::kinematics(table, xi, h) } else { Self::new(table, xi, h) }
+    }
+}
+
 /// Ad_gᵀ Λ = (Rᵀ(m − p × n), Rᵀ n).
 #[inline]
 fn carried<D: Scalar>(pose: &Pose<D>, wrench: &Wrench<D>) -> Wrench<D> {
@@ -172,6 +187,8 @@ pub(crate) struct ElementState<'a, const S: usize> {
     pub(crate) wrench_at_end: &'a Wrench,
     /// Distributed load and its tangent at the stages; `None` without loads.
     pub(crate) load: Option<&'a [LoadWrench; S]>,
+    /// Strains that do not vary: their equations are left out.
+    pub(crate) constraint: Constraint,
 }
 
 impl<const S: usize> ElementState<'_, S> {

@@ -10,9 +10,12 @@ pub(crate) mod condense;
 pub(crate) mod element;
 pub(crate) mod joint;
 pub(crate) mod magnus;
+mod planar;
 mod scene;
 mod stages;
+mod strong_form;
 pub(crate) mod support;
 
 pub use scene::Rod;
+pub use strong_form::{Motion, RateLoad, SectionState, StrainRate};
 pub use support::{Condition, Freedom, Support};

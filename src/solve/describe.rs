@@ -93,10 +93,16 @@ pub(super) fn strain_correction<B: Elastic>(
     strain: &Strain,
 ) -> Option<Strain> {
     let response = body.respond(s, strain, Request::Tangent).ok()?;
-    let residual = (*wrench - response.wrench).to_vector();
-    let step = match response.tangent.cholesky() {
+    let (mut tangent, mut residual) = (response.tangent, (*wrench - response.wrench).to_vector());
+    for (i, _) in body.constraint().fixed().iter().enumerate().filter(|(_, fixed)| **fixed) {
+        // Δξ_i = 0
+        tangent.row_mut(i).fill(0.0);
+        tangent.column_mut(i).fill(0.0);
+        (tangent[(i, i)], residual[i]) = (1.0, -strain.to_array()[i]);
+    }
+    let step = match tangent.cholesky() {
         Some(factor) => factor.solve(&residual),
-        None => response.tangent.lu().solve(&residual)?,
+        None => tangent.lu().solve(&residual)?,
     };
     Some(Strain::from_vector(&step))
 }

@@ -4,7 +4,7 @@ use nalgebra::Matrix6;
 
 use super::mesh::Mesh;
 use super::unknowns::{StageStrains, Unknowns};
-use crate::body::Elastic;
+use crate::body::{Constraint, Elastic};
 use crate::error::{Error, Result};
 use crate::lie::{Pose, Wrench};
 use crate::load::LoadWrench;
@@ -70,7 +70,8 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
             for k in 0..S {
                 into.response[i][k] = body.respond(self.stage_s(i, k), &element[k], Request::Tangent)?;
             }
-            let motion = Kinematics::new(&self.table, &self.twists(i, element), self.h(i));
+            let motion =
+                Kinematics::constrained(&self.table, &self.twists(i, element), self.h(i), &body.constraint());
             if !self.rod.loads().is_empty() {
                 into.loads.push(self.stage_loads(i, &pose, &motion)?);
             }
@@ -124,6 +125,7 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
             };
         }
         into.defect.reverse();
+        into.take_reactions(&self.rod.body().constraint());
     }
 
     fn stage_loads(&self, i: usize, node: &Pose, motion: &Kinematics<f64, S>) -> Result<[LoadWrench; S]> {
@@ -162,6 +164,7 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
             stage_wrench: &state.stage_wrench[i],
             wrench_at_end: &state.end_wrench[i],
             load: state.loads.get(i),
+            constraint: self.rod.body().constraint(),
         }
     }
 
@@ -248,6 +251,26 @@ impl<const S: usize> Configuration<S> {
         self.kinematics.clear();
         self.loads.clear();
         self.joints.clear();
+    }
+
+    /// The law says nothing about strains that are fixed: the wrench that goes with them is what the balance asks for.
+    fn take_reactions(&mut self, constraint: &Constraint) {
+        if constraint.is_none() {
+            return;
+        }
+        let fixed = constraint.fixed();
+        for (responses, balances) in self.response.iter_mut().zip(&self.stage_wrench) {
+            for (response, balance) in responses.iter_mut().zip(balances) {
+                for i in 0..3 {
+                    if fixed[i] {
+                        response.wrench.moment[i] = balance.moment[i];
+                    }
+                    if fixed[3 + i] {
+                        response.wrench.force[i] = balance.force[i];
+                    }
+                }
+            }
+        }
     }
 
     /// r_k = Ψ(Δξ_k) − Λ_k of element i.

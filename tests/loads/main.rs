@@ -1,0 +1,10 @@
+//! Loads and actuators: their derivatives, closed forms, and solutions by another formulation and another method.
+#![allow(clippy::unwrap_used)] // a test that cannot go on should panic
+
+#[path = "../reference/mod.rs"]
+mod reference;
+mod shooting;
+
+mod derivatives;
+mod solved;
+mod tendons;
