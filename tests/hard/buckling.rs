@@ -16,7 +16,9 @@ fn shortened(shortening: f64, imperfection: f64) -> Rod<Body<Stiffness>> {
     let section = Stiffness::diagonal([1.0, 1.5, 1.0, 1e5, 1e5, 3e5]).unwrap();
     let mut body = Body::new(1.0, section).unwrap();
     if imperfection > 0.0 {
-        body = body.with_reference_strain(Twist::from_array([8.0 * imperfection, 0.0, 0.0, 0.0, 0.0, 1.0])).unwrap();
+        body = body
+            .with_reference_strain(Twist::from_array([8.0 * imperfection, 0.0, 0.0, 0.0, 0.0, 1.0]))
+            .unwrap();
     }
     let far = Pose::new(Matrix3::identity(), vector![0.0, 0.0, 1.0 - shortening]);
     Rod::between(body, Support::clamped(Pose::identity()), Support::clamped(far))
@@ -94,11 +96,12 @@ fn a_right_angle_frame_buckles_sideways_at_its_published_load() {
     let torsion = width * thickness.powi(3) / 3.0 * (1.0 - 0.63 * thickness / width);
     let area = width * thickness;
     // x of the section in the plane of the frame: bending in the plane is about y, against the strong axis
-    let section = Stiffness::diagonal([e * weak, e * strong, g * torsion, g * area, g * area, e * area]).unwrap();
+    let section =
+        Stiffness::diagonal([e * weak, e * strong, g * torsion, g * area, g * area, e * area]).unwrap();
     let body = Body::new(2.0 * length, section).unwrap();
     let corner = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), 0.5 * PI);
-    // the second leg leaves along +x; its end is pulled along the first leg, which bends the frame in its plane
-    let pull = DeadWrench::force(vector![0.0, 0.0, -1.0]).unwrap();
+    // the second leg leaves along +x; its end is pulled along the first leg, away from the clamp (the other way it buckles at 0.679)
+    let pull = DeadWrench::force(vector![0.0, 0.0, 1.0]).unwrap();
     let rod = Rod::clamped(body, Pose::identity()).with_corner(length, corner).unwrap().with_tip_load(pull);
     let options = PathOptions { factors: [0.0, 5.0], ..PathOptions::default() };
     let solver = Statics { order: Order::Six, elements: 16, ..Statics::default() };

@@ -1,6 +1,6 @@
 //! Slenderness and large dead loads.
 
-use hyperrod::load::{DeadWrench, Gravity};
+use hyperrod::load::{DeadWrench, FollowerWrench, Gravity};
 use hyperrod::section::Stiffness;
 use hyperrod::{Body, Pose, Rod, StaticSolution, Statics};
 use nalgebra::vector;
@@ -11,7 +11,8 @@ use super::oracle::{complete, elastica, root};
 pub fn round(length: f64, slenderness: f64) -> Body<Stiffness> {
     let axial = 4.0 * (slenderness / length).powi(2);
     let axial = axial.min(1e100);
-    Body::new(length, Stiffness::diagonal([1.0, 1.0, 2.0 / 3.0, axial / 3.0, axial / 3.0, axial]).unwrap()).unwrap()
+    Body::new(length, Stiffness::diagonal([1.0, 1.0, 2.0 / 3.0, axial / 3.0, axial / 3.0, axial]).unwrap())
+        .unwrap()
 }
 
 /// Λ·ξ − U, which is the same at every s of a uniform linear rod with loads at its ends, over its largest part.
@@ -54,7 +55,10 @@ fn an_inextensible_rod_is_the_elastica_to_1e_12() {
         let options = Statics { elements: 128, order: hyperrod::solve::Order::Six, ..Statics::default() };
         let solution = options.solve(&rod).unwrap();
         let (tip, exact) = (solution.tip().pose.position, elastica(alpha));
-        assert!((tip.x - exact[0]).abs() < 1e-12 && (tip.z - exact[1]).abs() < 1e-12, "{alpha}: {tip} {exact:?}");
+        assert!(
+            (tip.x - exact[0]).abs() < 1e-12 && (tip.z - exact[1]).abs() < 1e-12,
+            "{alpha}: {tip} {exact:?}"
+        );
     }
 }
 
@@ -102,7 +106,7 @@ fn a_helix_of_ten_coils_from_a_straight_start() {
     let omega = vector![0.0, kappa, tau];
     let (moment, force) = (vector![0.0, kappa, stiffness[2] * tau], omega * c);
     let body = Body::new(1.0, Stiffness::diagonal(stiffness).unwrap()).unwrap();
-    let rod = Rod::clamped(body, Pose::identity()).with_tip_load(super::follower::Follower { moment, force });
+    let rod = Rod::clamped(body, Pose::identity()).with_tip_load(FollowerWrench::new(moment, force).unwrap());
     let solution = Statics::to(1e-8).solve(&rod).unwrap();
     let xi = hyperrod::Twist::new(omega, vector![0.0, c * kappa / 1e6, 1.0 + c * tau / 1e6]);
     let exact = hyperrod::lie::se3::exp(&xi);
@@ -158,9 +162,8 @@ fn heavy(w: f64) -> [f64; 2] {
                 break;
             }
         }
-        let along = |f: fn(f64) -> f64| {
-            h * (0..n).map(|i| 0.5 * (f(theta[i]) + f(theta[i + 1]))).sum::<f64>()
-        };
+        let along =
+            |f: fn(f64) -> f64| h * (0..n).map(|i| 0.5 * (f(theta[i]) + f(theta[i + 1]))).sum::<f64>();
         ([along(f64::cos), along(f64::sin)], theta)
     };
     let (coarse, start) = tip(4000, &[0.0; 4001]);

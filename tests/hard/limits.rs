@@ -26,7 +26,8 @@ fn a_law_that_loses_its_convexity_jumps_to_its_other_phase_or_says_where_it_soft
     // n = 100 e (1 − e)(1 − 2e): the largest, 100/(6√3) = 9.62, at e = (1 − 1/√3)/2
     for pull in [5.0, 9.0, 9.6, 9.7, 12.0, 20.0] {
         let load = DeadWrench::force(vector![0.0, 0.0, pull]).unwrap();
-        let rod = Rod::clamped(Body::new(1.0, Resultants(TwoPhases)).unwrap(), Pose::identity()).with_tip_load(load);
+        let rod = Rod::clamped(Body::new(1.0, Resultants(TwoPhases)).unwrap(), Pose::identity())
+            .with_tip_load(load);
         match Statics::to(1e-8).solve(&rod) {
             Ok(solution) => {
                 let e = solution.tip().strain.linear.z;
@@ -37,8 +38,11 @@ fn a_law_that_loses_its_convexity_jumps_to_its_other_phase_or_says_where_it_soft
                 assert!((e - 0.5).abs() > 0.5 / 3.0_f64.sqrt());
             }
             Err(failure) => match &failure.reason {
-                Reason::Unstable { stability: Stability::Softening { s } } => assert!((0.0..=1.0).contains(s)),
-                Reason::IterationLimit { .. } | Reason::Singular { .. } | Reason::NoAdmissibleStep { .. } => {}
+                Reason::Unstable { stability: Stability::Softening { s } } => {
+                    assert!((0.0..=1.0).contains(s))
+                }
+                Reason::IterationLimit { .. } | Reason::Singular { .. } | Reason::NoAdmissibleStep { .. } => {
+                }
                 reason => panic!("{pull}: {reason}"),
             },
         }

@@ -4,6 +4,7 @@
 mod buckling;
 mod elastica;
 mod follower;
+mod invariance;
 mod limits;
 mod oracle;
 mod paths;
