@@ -2,6 +2,7 @@ use std::time::Duration;
 
 /// One Newton iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Iteration {
     /// Elements of the mesh it was taken on.
     pub elements: usize,
@@ -15,6 +16,7 @@ pub struct Iteration {
 
 /// How far the answer may be from the exact solution of the model, estimated from two meshes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ErrorEstimate {
     /// Of the positions of the nodes, m.
     pub position: f64,
@@ -98,6 +100,7 @@ impl std::fmt::Display for Stability {
 
 /// How a solve went.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Report {
     /// Every Newton iteration, coarse mesh first.
     pub iterations: Vec<Iteration>,
