@@ -43,6 +43,7 @@ impl ErrorEstimate {
 
 /// What a solve had to do to find its answer, in the order in which it is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Rung {
     /// Newton's method from rest, with steps that turn no node by more than a radian.
     Newton,
@@ -56,6 +57,7 @@ pub enum Rung {
 
 /// Whether an equilibrium would stay.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Stability {
     /// The second variation of the energy under the conditions of the supports.
     Index {
