@@ -13,8 +13,7 @@ use num_dual::{Dual2_64, DualNum};
 use super::reference::{data, number, rotation};
 use super::shooting::{Shooting, State, ad_transpose, hat, join};
 
-const STATICS: Statics =
-    Statics { elements: 64, order: Order::Six, tolerance: 1e-10, max_iterations: 50, accuracy: None };
+const STATICS: Statics = Statics { elements: 64, order: Order::Six, tolerance: 1e-10, ..Statics::DEFAULT };
 
 /// Closed form: tendons parallel to the axis give a constant strain, and g(L) = exp(L ξ^).
 #[test]
