@@ -86,7 +86,7 @@ pub use fibre_direction::{FibreDirection, Helix, Straight, Twisted};
 pub use fibres::Fibres;
 pub use fung::Fung;
 pub use gent::Gent;
-pub(crate) use gradient::{GradientBatch, GradientState, packed};
+pub(crate) use gradient::{GradientBatch, GradientLaw, GradientState, packed};
 #[doc(hidden)]
 pub use gradient::{GradientResponse, GradientSite};
 pub use hencky::Hencky;

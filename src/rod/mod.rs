@@ -5,6 +5,7 @@
 //!
 //! What lives here states equilibrium and its exact linearisation on one element; it does not solve anything.
 
+pub(crate) mod adjoint;
 pub(crate) mod collocation;
 pub(crate) mod condense;
 pub(crate) mod element;

@@ -4,7 +4,7 @@ use super::describe::{describe, failed};
 use super::equilibrium::Configuration;
 use super::estimate::{Defect, Level, difference, first_elements};
 use super::failure::{Failure, Reason};
-use super::globalise::unstable;
+use super::globalise::{NEUTRAL, unstable};
 use super::linear::Buffers;
 use super::mesh::Mesh;
 use super::newton::{Newton, Outcome, Stop};
@@ -50,6 +50,8 @@ pub(super) struct Cascade<'r, 'o, B, const S: usize> {
     pub(super) report: Report,
     /// Whether an equilibrium that would not stay is an answer.
     pub(super) accept_unstable: bool,
+    /// Neutral modes of the last state whose stability was told.
+    pub(super) neutral: usize,
 }
 
 type Solved = Result<StaticSolution, Box<Failure>>;
@@ -61,7 +63,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         buffers: &'o mut Buffers<S>,
         accept_unstable: bool,
     ) -> Self {
-        Self { rod, newton, buffers, report: Report::default(), accept_unstable }
+        Self { rod, newton, buffers, report: Report::default(), accept_unstable, neutral: 0 }
     }
 
     /// A mesh of so many equal elements, then one of twice as many, which is the answer.
@@ -70,8 +72,10 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         let coarse_mesh = Mesh::<B, S>::uniform(self.rod, coarse_elements);
         let (coarse_mesh, coarse) = self.climb(std::iter::once(coarse_mesh))?;
         let parts = vec![2; coarse_mesh.elements()];
-        let mesh = coarse_mesh.refined(&parts);
-        let fine = self.solve(&mesh, coarse.unknowns.prolonged(&coarse_mesh, &parts))?;
+        let mut mesh = coarse_mesh.refined(&parts);
+        let start = coarse.unknowns.prolonged(&coarse_mesh, &parts);
+        self.hold_neutral_modes(&mut mesh, &start);
+        let fine = self.solve(&mesh, start)?;
         if let (Some(coarse), Some(fine)) = (&coarse.state, &fine.state) {
             // a difference of (2^p − 1) errors of the finer one
             let factor = 1.0 / (4.0_f64.powi(S as i32) - 1.0);
@@ -155,7 +159,12 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         Ok(Self::level_of(mesh, outcome))
     }
 
-    fn level(&mut self, mesh: Mesh<'r, B, S>, start: Unknowns<S>) -> Result<Level<'r, B, S>, Box<Failure>> {
+    fn level(
+        &mut self,
+        mut mesh: Mesh<'r, B, S>,
+        start: Unknowns<S>,
+    ) -> Result<Level<'r, B, S>, Box<Failure>> {
+        self.hold_neutral_modes(&mut mesh, &start);
         let outcome = self.solve(&mesh, start)?;
         Ok(Self::level_of(mesh, outcome))
     }
@@ -175,6 +184,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
     ) -> Result<Outcome<S>, Box<Failure>> {
         let outcome = self.newton.solve(mesh, start, self.buffers, &mut self.report.iterations);
         self.report.residual = outcome.residual;
+        self.buffers.neutral.clear();
         if outcome.failure.is_some() {
             return Err(failed(mesh, outcome, self.report.clone()));
         }
@@ -182,7 +192,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
     }
 
     fn answer(&mut self, mesh: &Mesh<'_, B, S>, outcome: &Outcome<S>) -> Solved {
-        self.report.stability = self.stability_of(mesh, outcome);
+        self.report.stability = self.stability_of(mesh, outcome, NEUTRAL);
         if self.report.stability.is_unstable() && !self.accept_unstable {
             return Err(unstable(mesh, outcome, self.report.stability, self));
         }

@@ -58,6 +58,16 @@ pub enum Reason {
         /// How it is unstable.
         stability: Stability,
     },
+    /// No tension was found at which a tendon has the length asked for.
+    #[error("no tension makes the tendon {asked} m long: {found} m after {solves} solves")]
+    Length {
+        /// What was asked for, m.
+        asked: f64,
+        /// The length of the last solve, m.
+        found: f64,
+        /// How many solves were made.
+        solves: usize,
+    },
     /// The iteration limit was reached.
     #[error(
         "no convergence in {limit} iterations: last step {step:.3e}, asked {tolerance:.1e}; apply the load in steps, or raise the limit"

@@ -11,6 +11,7 @@ use hyperrod::Strain;
 use hyperrod::material::{NeoHookean, Request, Response, Station};
 use hyperrod::section::{CrossSection, Relaxed, Shape, Warping};
 
+/// A relaxed neo-Hookean section of any shape.
 pub type Solid = Relaxed<Box<dyn Shape>, NeoHookean>;
 
 /// A relaxed section of the neo-Hookean law of the references, μ = 1.
@@ -20,10 +21,12 @@ pub fn solid(shape: impl Shape + 'static, lambda: f64, (in_plane, axial): (usize
     Relaxed::new(shape, law).unwrap().with_warping(Warping { in_plane, axial }).unwrap()
 }
 
+/// A station of a straight reference.
 pub fn at_rest() -> Station {
     Station::straight(0.0)
 }
 
+/// Energy, wrench and tangent at a strain.
 pub fn respond(section: &dyn CrossSection, strain: [f64; 6]) -> Response {
     section.respond(&at_rest(), &Strain::from_array(strain), Request::Tangent).unwrap()
 }

@@ -3,7 +3,7 @@
 use super::descend::{descend, turned_aside};
 use super::family::RodFamily;
 use super::load_steps::load_steps;
-use super::verdict::{needed_parts, stability};
+use super::verdict::{NEUTRAL_START, needed_parts, stability};
 use crate::body::Elastic;
 use crate::solve::cascade::Cascade;
 use crate::solve::continuation::{End, Stride, trace};
@@ -34,7 +34,9 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         for mesh in meshes {
             match self.solve(&mesh, Unknowns::at_rest(&mesh)) {
                 Ok(outcome) => return self.stay(mesh, outcome),
-                Err(failure) => failed = Some((mesh, failure)),
+                Err(failure) => {
+                    failed.get_or_insert((mesh, failure));
+                }
             }
         }
         let Some((mesh, failure)) = failed else {
@@ -46,7 +48,7 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
 
     /// An equilibrium if it stays, or a stable one.
     fn stay(&mut self, mesh: Mesh<'r, B, S>, outcome: Outcome<S>) -> Climbed<'r, B, S> {
-        let stability = self.stability_of(&mesh, &outcome);
+        let stability = self.stability_of(&mesh, &outcome, NEUTRAL_START);
         if self.accept_unstable || !stability.is_unstable() {
             return Ok((mesh, outcome));
         }
@@ -101,7 +103,7 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
     /// The equilibrium next to a state, if it is a stable one, or may be any.
     fn stable(&mut self, mesh: &Mesh<'r, B, S>, from: Unknowns<S>) -> Option<Outcome<S>> {
         let outcome = self.solve(mesh, from).ok()?;
-        let stability = self.stability_of(mesh, &outcome);
+        let stability = self.stability_of(mesh, &outcome, NEUTRAL_START);
         if !stability.is_unstable() || self.accept_unstable {
             return Some(outcome);
         }
@@ -109,18 +111,31 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         let aside = turned_aside(mesh, &outcome.unknowns);
         let found = descend(mesh, &aside, self.buffers, &mut self.report.iterations)?;
         let outcome = self.solve(mesh, found).ok()?;
-        (!self.stability_of(mesh, &outcome).is_unstable()).then_some(outcome)
+        (!self.stability_of(mesh, &outcome, NEUTRAL_START).is_unstable()).then_some(outcome)
     }
 
     pub(in crate::solve) fn stability_of(
         &mut self,
         mesh: &Mesh<'_, B, S>,
         outcome: &Outcome<S>,
+        neutral: f64,
     ) -> Stability {
-        match &outcome.state {
-            Some(state) => stability(mesh, &outcome.unknowns, state, self.buffers),
+        let stability = match &outcome.state {
+            Some(state) => stability(mesh, &outcome.unknowns, state, self.buffers, neutral),
             None => Stability::Unknown,
-        }
+        };
+        self.neutral = match stability {
+            Stability::Index { unstable: 0, neutral } => neutral,
+            _ => 0,
+        };
+        stability
+    }
+
+    /// Finds the neutral modes of a start, as the turning of a buckled round column about its axis, so that Newton's method leaves them alone.
+    pub(in crate::solve) fn hold_neutral_modes(&mut self, mesh: &mut Mesh<'r, B, S>, start: &Unknowns<S>) {
+        let mut family = RodFamily { mesh, buffers: self.buffers };
+        let modes = (0..self.neutral).filter_map(|number| family.mode(start, 1.0, number)).collect();
+        self.buffers.neutral = modes;
     }
 
     /// The first state of the full load on the path from rest.

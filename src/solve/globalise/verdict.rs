@@ -7,6 +7,10 @@ use crate::solve::report::Stability;
 use crate::solve::stability::{Verdict, chain};
 use crate::solve::unknowns::Unknowns;
 
+/// What is neutral in a state that is solved to the accuracy asked for, and in one that is but a start for finer meshes.
+pub(crate) const NEUTRAL: f64 = 1e-6;
+pub(super) const NEUTRAL_START: f64 = 1e-3;
+
 /// The most elements on which a verdict is sought.
 const MAX_ELEMENTS: usize = 20_000;
 
@@ -14,7 +18,7 @@ const MAX_ELEMENTS: usize = 20_000;
 const CUTS: usize = 3;
 
 /// An element is resolved if its loads are below this part of what it bears with both ends held.
-const RESOLVED: f64 = 0.5;
+const RESOLVED: f64 = 0.03;
 
 /// Whether every load there is has a potential.
 pub(super) fn is_conservative<B: Elastic, const S: usize>(
@@ -34,12 +38,13 @@ pub(super) fn softening<B: Elastic, const S: usize>(
     })
 }
 
-/// How stable a converged state is.
+/// How stable a state is. What of the last pivot is below `neutral`, in units of the rod's bending stiffness, counts as nothing.
 pub(crate) fn stability<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     unknowns: &Unknowns<S>,
     state: &Configuration<S>,
     buffers: &mut Buffers<S>,
+    neutral: f64,
 ) -> Stability {
     if !is_conservative(mesh, state) {
         return Stability::Unknown;
@@ -49,13 +54,13 @@ pub(crate) fn stability<B: Elastic, const S: usize>(
     }
     let parts = needed_parts(mesh, state);
     if parts.iter().all(|&count| count == 1) {
-        match index(mesh, unknowns, state, buffers) {
+        match index(mesh, unknowns, state, buffers, neutral) {
             Some(verdict) => return verdict,
             None if mesh.elements() > MAX_ELEMENTS => return Stability::Unknown,
             None => {}
         }
     }
-    refined(mesh, unknowns, parts, buffers).unwrap_or(Stability::Unknown)
+    refined(mesh, unknowns, parts, buffers, neutral).unwrap_or(Stability::Unknown)
 }
 
 /// The index where every element is resolved.
@@ -64,10 +69,11 @@ fn index<B: Elastic, const S: usize>(
     unknowns: &Unknowns<S>,
     state: &Configuration<S>,
     buffers: &mut Buffers<S>,
+    neutral: f64,
 ) -> Option<Stability> {
     let scale = scale(mesh, state);
     buffers.condense(mesh, unknowns, state).ok()?;
-    match chain(mesh, state, &buffers.condensed, &scale)?.verdict() {
+    match chain(mesh, state, &buffers.condensed, &scale)?.verdict(neutral) {
         Verdict::Index { unstable, neutral } => Some(Stability::Index { unstable, neutral }),
         Verdict::Unresolved { .. } => None,
     }
@@ -79,6 +85,7 @@ fn refined<B: Elastic, const S: usize>(
     unknowns: &Unknowns<S>,
     mut parts: Vec<usize>,
     buffers: &mut Buffers<S>,
+    neutral: f64,
 ) -> Option<Stability> {
     let mut state = buffers.configuration();
     let mut found = None;
@@ -91,7 +98,7 @@ fn refined<B: Elastic, const S: usize>(
         if fine.configure(&prolonged, &mut state).is_err() {
             break;
         }
-        found = index(&fine, &prolonged, &state, buffers);
+        found = index(&fine, &prolonged, &state, buffers, neutral);
         if found.is_some() {
             break;
         }
