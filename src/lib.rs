@@ -129,7 +129,8 @@
 //!    ```
 //!
 //!    where the second is the Young's modulus of the incompressible rubber itself. A compressible law on a rigid section likewise has the axial
-//!    modulus λ + 2μ instead of E = μ(3λ + 2μ)/(λ + μ). On a rigid section, choose the constants for the moduli the rod shall have.
+//!    modulus λ + 2μ instead of E = μ(3λ + 2μ)/(λ + μ). On a rigid section, choose the constants for the moduli the rod shall
+//!    have; a [`Relaxed`](section::Relaxed) one takes those of the material.
 //!
 //! # Layers
 //!
@@ -142,7 +143,7 @@
 //! | [`lie`] | SO(3) and SE(3): exp, log, Ad, ad, dexp; twists, strains and wrenches |
 //! | [`quadrature`] | rules on lines and plane shapes, exact to a stated degree, with positive weights; compression |
 //! | [`material`] | energy densities, the laws at hand, and their derivatives at a point and over a section |
-//! | [`section`] | shapes that may vary along s, composites, resultants; Δξ to U, Ψ, ∂Ψ/∂Δξ and Ψ′; [`check`](section::check) |
+//! | [`section`] | shapes that may vary along s, sections that stay rigid and that relax, composites, resultants; Δξ to U, Ψ, ∂Ψ/∂Δξ and Ψ′; [`check`](section::check) |
 //! | [`body`] | length, section, reference strain, and mass where a scene asks for it |
 //! | [`load`] | gravity through the centre of mass, and tip wrenches, with exact derivatives |
 //! | [`rod`] | the scene, and the collocation element in the strains |
@@ -156,7 +157,7 @@
 //!
 //! | choice | rungs |
 //! |---|---|
-//! | section | [`Stiffness`](section::Stiffness): Ψ = K Δξ with numbers you measured; [`Resultants`](section::Resultants): an energy per length in Δξ, such as a [`Ribbon`](section::Ribbon); [`Section`](section::Section): an energy density on a section that stays plane and rigid; [`Composite`](section::Composite): several of them |
+//! | section | [`Stiffness`](section::Stiffness): Ψ = K Δξ with numbers you measured; [`Resultants`](section::Resultants): an energy per length in Δξ, such as a [`Ribbon`](section::Ribbon); [`Section`](section::Section): an energy density on a section that stays plane and rigid; [`Relaxed`](section::Relaxed): the same on a section that contracts, bends back and warps, by the rungs of [`Warping`](section::Warping); [`Composite`](section::Composite): several of them |
 //! | level of the law | [`Isotropic`](material::Isotropic): u(I₁−3, I₂−3, J−1), 2 variables (a² + b² and e); [`Local`](material::Local): u(F), 3; [`Sectional`](material::Sectional): u(Δξ, x, y), 6; one more, s, for Ψ′ on a section that varies. A quadratic law that says it is uniform is integrated once, at rest |
 //! | way to write it | a trait, or [`isotropic!`], [`local!`], [`sectional!`] in closure syntax; [`material::isotropic`] and its siblings: a real closure, which always pays for every variable and misses what the compiler does for a type |
 //! | shape along s | a number; [`Linear`](section::Linear); a closure of s over a dual number; and any shape [`scaled`](section::Shape::scaled), [`rotated`](section::Shape::rotated) or [`shifted`](section::Shape::shifted) |
@@ -168,7 +169,7 @@
 //! # What is not there yet
 //!
 //! * Dynamics and damping. The solver is static.
-//! * Sections that contract, warp or ovalise. A rigid section is too stiff for rubber unless the constants are chosen for it (correction 3).
+//! * Sections of a mesh: those that relax do so by polynomials, which are slow where a section is thin-walled or re-entrant.
 //! * Ends other than clamped and free; follower loads, tendons, pressure; rods joined to rods.
 //! * A stability check: the solver finds an equilibrium, and does not say whether it is a stable one. It applies the load in one step.
 
