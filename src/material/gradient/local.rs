@@ -59,7 +59,7 @@ fn variables<const N: usize>(h: &[f64; 9]) -> Matrix3<Dual2SVec64<N>> {
 /// Reads value, gradient and Hessian in the first nine variables.
 fn read<const N: usize>(u: &Dual2SVec64<N>, lane: usize, lanes: &mut [[f64; MAX_LANES]]) {
     let (one, n) = (nalgebra::Const::<1>, nalgebra::Const::<N>);
-    let (v1, v2) = (u.v1.clone().unwrap_generic(one, n), u.v2.clone().unwrap_generic(n, n));
+    let (v1, v2) = (u.v1.unwrap_generic(one, n), u.v2.unwrap_generic(n, n));
     lanes[0][lane] = u.re;
     for i in 0..9 {
         lanes[1 + i][lane] = v1[i];
