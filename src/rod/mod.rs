@@ -8,9 +8,11 @@
 pub(crate) mod collocation;
 pub(crate) mod condense;
 pub(crate) mod element;
+mod load_terms;
 pub(crate) mod magnus;
 mod planar;
 mod scene;
+mod stage_system;
 mod stages;
 mod strong_form;
 
