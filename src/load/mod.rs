@@ -8,6 +8,7 @@
 //! | [`Gravity`] | length | [a mass](crate::body::HasMass) | yes |
 //! | [`Buoyancy`] | length | [an area](crate::body::HasArea) | yes |
 //! | [`DeadLoad`], [`DeadWrench`] | length, tip | | of the force |
+//! | [`Payload`] | tip | | yes |
 //! | [`FollowerLoad`], [`FollowerWrench`] | length, tip | | no |
 //! | [`ElasticFoundation`] | length | | yes |
 //! | [`distributed`], [`distributed_on`], [`at_tip`]: a closure that gives the wrench | length, tip | what it asks for | no |
@@ -24,6 +25,7 @@ mod distributed;
 mod follower_wrench;
 mod foundation;
 mod gravity;
+mod payload;
 
 pub use buoyancy::Buoyancy;
 pub use closure::{
@@ -35,6 +37,7 @@ pub use distributed::{DeadLoad, FollowerLoad, WrenchProfile};
 pub use follower_wrench::FollowerWrench;
 pub use foundation::ElasticFoundation;
 pub use gravity::Gravity;
+pub use payload::Payload;
 
 use nalgebra::Matrix6;
 

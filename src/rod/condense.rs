@@ -135,6 +135,13 @@ impl<const S: usize> Condensed<S> {
         }
     }
 
+    /// δξ at the stages by a displacement and a change of wrench at the element's first node alone.
+    pub(crate) fn strain_of_node(&self, zeta: &Vector6<f64>, wrench: &Vector6<f64>) -> [Strain; S] {
+        let nothing = self.strain_step(&Vector6::zeros(), &Vector6::zeros());
+        let all = self.strain_step(zeta, wrench);
+        std::array::from_fn(|k| all[k] - nothing[k])
+    }
+
     /// Shear and extension first, a 3×3 inverse at every stage, then bending and torsion of all stages together. `None` where that is not
     /// safe or not possible.
     ///

@@ -53,6 +53,22 @@ impl<D: Scalar, const S: usize> Kinematics<D, S> {
         (at_start, self.stage_wrenches(table, &at_start, &node_loads, h))
     }
 
+    /// Λ_k at the stages and Λ at the end, from Λ_i and the loads of the stages.
+    pub(crate) fn wrenches_from_start(
+        &self,
+        table: &Collocation<S>,
+        wrench_at_start: &Wrench<D>,
+        stage_loads: Option<&[Wrench<D>; S]>,
+        h: f64,
+    ) -> ([Wrench<D>; S], Wrench<D>) {
+        let node_loads = stage_loads.map_or([Wrench::zero(); S], |loads| self.at_node(loads));
+        let mut at_end = *wrench_at_start;
+        for l in 0..S {
+            at_end -= node_loads[l] * D::from(h * table.b[l]);
+        }
+        (self.stage_wrenches(table, wrench_at_start, &node_loads, h), carried(&self.end, &at_end))
+    }
+
     /// Λ_i = Ad_e⁻ᵀ Λ_{i+1} + h Σ b_l F_l.
     pub(crate) fn wrench_at_start(
         &self,
