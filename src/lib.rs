@@ -179,9 +179,11 @@ pub use num_dual;
 pub mod body;
 /// Errors: which quantity, which value, where.
 pub mod error;
+pub mod guide;
 pub mod lie;
 pub mod load;
 pub mod material;
+pub mod output;
 pub mod quadrature;
 pub mod rod;
 pub mod scalar;

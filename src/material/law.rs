@@ -1,5 +1,6 @@
 use super::batch::integrate_many;
 use super::differentiate::{Fibre, FibreResponse, Level, isotropic_response, local_response};
+use super::gradient::{GradientResponse, GradientSite, isotropic_gradient_response, local_gradient_response};
 use super::integrate::{Site, integrate_local, integrate_sectional};
 use super::kinematics::{Deformation, Invariants, Point};
 use super::response::{Points, Request, Response, Station};
@@ -103,6 +104,14 @@ pub trait Local: Send + Sync {
     fn respond<L: Lane, O: Level>(&self, fibre: &Fibre<L>) -> FibreResponse<L> {
         local_response::<Self, L, O>(self, fibre)
     }
+
+    /// The derivatives at a block of points whose whole deformation gradient is known. The library's business, overridden by the
+    /// isotropic level.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn respond_to_gradient<L: Lane, O: Level>(&self, site: &GradientSite<L>) -> GradientResponse<L> {
+        local_gradient_response::<Self, L, O>(self, site)
+    }
 }
 
 impl<M: Isotropic> Local for M {
@@ -126,6 +135,11 @@ impl<M: Isotropic> Local for M {
     #[inline(always)]
     fn respond<L: Lane, O: Level>(&self, fibre: &Fibre<L>) -> FibreResponse<L> {
         isotropic_response::<Self, L, O>(self, fibre)
+    }
+
+    #[inline(always)]
+    fn respond_to_gradient<L: Lane, O: Level>(&self, site: &GradientSite<L>) -> GradientResponse<L> {
+        isotropic_gradient_response::<Self, L, O>(self, site)
     }
 }
 

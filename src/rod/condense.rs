@@ -4,7 +4,8 @@ use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3, Vector6};
 
 use super::collocation::Collocation;
 use super::element::{ElementState, Linearisation, Variations};
-use super::stages::{solve_general, solve_rows};
+use super::planar;
+use super::stages::{solve_free_rows, solve_general, solve_rows};
 use crate::lie::{Strain, TwistMap, Wrench, so3::hat};
 
 /// Columns of everything that depends on the element's first node: δΛ_i, then 1, then ζ_i.
@@ -51,9 +52,18 @@ impl<const S: usize> Condensed<S> {
 
     /// Linearises and eliminates. `None` if the stage matrix is singular.
     pub(crate) fn fill(&mut self, table: &Collocation<S>, state: &ElementState<'_, S>) -> Option<()> {
-        let done = match state.load {
-            None => self.eliminate::<LOADLESS>(table, state),
-            Some(_) => self.eliminate::<COLUMNS>(table, state),
+        if state.load.is_none()
+            && planar::holds(&state.constraint, &state.xi)
+            && self.fill_in_plane(table, state).is_some()
+        {
+            return Some(());
+        }
+        let stiff = state.constraint.fixed()[3..] == [true; 3];
+        let done = match (state.load, stiff) {
+            (None, false) => self.eliminate::<LOADLESS, true>(table, state),
+            (None, true) => self.eliminate::<LOADLESS, false>(table, state),
+            (Some(_), false) => self.eliminate::<COLUMNS, true>(table, state),
+            (Some(_), true) => self.eliminate::<COLUMNS, false>(table, state),
         };
         match done {
             Some(()) => Some(()),
@@ -65,7 +75,7 @@ impl<const S: usize> Condensed<S> {
     /// a load depends on where it acts.
     pub(crate) fn fill_general(&mut self, table: &Collocation<S>, state: &ElementState<'_, S>) -> Option<()> {
         let element = Linearisation::new(table, state);
-        self.strain = solve_general(&element)?;
+        self.strain = solve_general(&element, &state.constraint.fixed())?;
         self.loaded = true;
         let t = &mut self.transfer;
         (t.zeta_from_zeta, t.zeta_from_wrench) = (element.end_adjoint, Matrix6::zeros());
@@ -96,20 +106,49 @@ impl<const S: usize> Condensed<S> {
         })
     }
 
+    /// Strains of an element without distributed loads: δξ_k by the column `c` of four, and which component of δΛ_i that goes with; that
+    /// which goes with none is the constant.
+    #[inline(always)]
+    pub(super) fn set_strains(&mut self, column: impl Fn(usize, usize) -> (Option<usize>, [f64; 6])) {
+        self.loaded = false;
+        for (k, strain) in self.strain.iter_mut().enumerate() {
+            strain.fixed_columns_mut::<LOADLESS>(WRENCH).fill(0.0);
+            for c in 0..4 {
+                let (place, value) = column(k, c);
+                strain.set_column(place.map_or(ONE, |place| WRENCH + place), &value.into());
+            }
+        }
+    }
+
+    /// δξ at the stages by a displacement and a change of wrench at the element's first node alone.
+    pub(crate) fn strain_of_node(&self, zeta: &Vector6<f64>, wrench: &Vector6<f64>) -> [Strain; S] {
+        let nothing = self.strain_step(&Vector6::zeros(), &Vector6::zeros());
+        let all = self.strain_step(zeta, wrench);
+        std::array::from_fn(|k| all[k] - nothing[k])
+    }
+
     /// Shear and extension first, a 3×3 inverse at every stage, then bending and torsion of all stages together. `None` where that is not
     /// safe or not possible.
+    ///
+    /// A strain that is fixed has no compliance: K_νν⁻¹ has zeros there, and all of them where neither shear nor extension is free
+    /// (`SOFT` is false).
     #[inline(always)]
-    fn eliminate<const C: usize>(
+    fn eliminate<const C: usize, const SOFT: bool>(
         &mut self,
         table: &Collocation<S>,
         state: &ElementState<'_, S>,
     ) -> Option<()> {
         let variations = Variations::new(table, &state.xi, state.h);
+        let fixed = state.constraint.fixed();
         let mut flexibility = [Matrix3::zeros(); S];
-        for k in 0..S {
-            flexibility[k] = inverse(&state.response[k].tangent.fixed_view::<3, 3>(3, 3).into())?;
+        if SOFT {
+            for k in 0..S {
+                let k_nu = state.response[k].tangent.fixed_view::<3, 3>(3, 3).into();
+                flexibility[k] =
+                    if fixed[3..] == [false; 3] { inverse(&k_nu)? } else { inverse_of_free(k_nu, &fixed)? };
+            }
         }
-        let mut system = StageSystem::<S, C>::new(state, &variations);
+        let mut system = StageSystem::<S, C>::new::<SOFT>(state, &variations);
         let mut ends = Ends::<S>::default();
         if let Some(loads) = state.load {
             let from_zeta =
@@ -118,19 +157,19 @@ impl<const S: usize> Condensed<S> {
         } else {
             self.transfer.wrench_from_zeta = Matrix6::zeros();
         }
-        let [angular, linear] = system.solve(&flexibility)?;
+        system.solve::<SOFT>(&flexibility, &fixed)?;
         for k in 0..S {
-            self.strain[k].fixed_view_mut::<3, C>(0, 0).copy_from(&angular[k]);
-            self.strain[k].fixed_view_mut::<3, C>(3, 0).copy_from(&linear[k]);
+            self.strain[k].fixed_view_mut::<3, C>(0, 0).copy_from(&system.angular_rhs[k]);
+            self.strain[k].fixed_view_mut::<3, C>(3, 0).copy_from(&system.linear_rhs[k]);
         }
         self.loaded = C == COLUMNS;
-        self.transfer_from::<C>(state, &variations.end, &ends, &angular, &linear);
+        self.transfer_from::<C, SOFT>(state, &variations.end, &ends, &system.angular_rhs, &system.linear_rhs);
         Some(())
     }
 
     /// ζ_{i+1} = Ad_e⁻¹ ζ_i + y_e, δΛ_{i+1} = L(Λ_{i+1}) y_e + Ad_eᵀ δΛ_i − loads.
     #[inline(always)]
-    fn transfer_from<const C: usize>(
+    fn transfer_from<const C: usize, const SOFT: bool>(
         &mut self,
         state: &ElementState<'_, S>,
         end: &[TwistMap; S],
@@ -141,7 +180,10 @@ impl<const S: usize> Condensed<S> {
         let (mut w, mut v) = (SMatrix::<f64, 3, C>::zeros(), SMatrix::<f64, 3, C>::zeros());
         for l in 0..S {
             w += end[l].diagonal * angular[l];
-            v += end[l].lower * angular[l] + end[l].diagonal * linear[l];
+            v += end[l].lower * angular[l];
+            if SOFT {
+                v += end[l].diagonal * linear[l];
+            }
         }
         let Wrench { moment, force } = state.wrench_at_end;
         let mut m = cross(moment, &w) + cross(force, &v);
@@ -211,6 +253,22 @@ fn inverse(k: &Matrix3<f64>) -> Option<Matrix3<f64>> {
     Some(Matrix3::from_columns(&cofactors).transpose() * (scale / determinant))
 }
 
+/// The inverse among the strains that are free, zero in the rows and columns of those that are fixed.
+fn inverse_of_free(mut k: Matrix3<f64>, fixed: &[bool; 6]) -> Option<Matrix3<f64>> {
+    let size = (0..3).filter(|&i| !fixed[3 + i]).fold(0.0_f64, |size, i| size.max(k[(i, i)]));
+    let held = |i: usize| fixed[3 + i];
+    for i in (0..3).filter(|&i| held(i)) {
+        k.row_mut(i).fill(0.0);
+        k.column_mut(i).fill(0.0);
+        k[(i, i)] = size;
+    }
+    let mut flexibility = inverse(&k)?;
+    for i in (0..3).filter(|&i| held(i)) {
+        flexibility[(i, i)] = 0.0;
+    }
+    Some(flexibility)
+}
+
 /// The stage equations, rows (angular, linear) and unknowns (δω, δν); the block linear–linear is K_νν alone.
 struct StageSystem<const S: usize, const C: usize> {
     angular_angular: [[Matrix3<f64>; S]; S],
@@ -223,7 +281,7 @@ struct StageSystem<const S: usize, const C: usize> {
 impl<const S: usize, const C: usize> StageSystem<S, C> {
     /// K_k δξ_k − L(Λ_k) Σ_l B_kl δξ_l = −r_k + Ad_kᵀ δΛ_i.
     #[inline(always)]
-    fn new(state: &ElementState<'_, S>, variations: &Variations<S>) -> Self {
+    fn new<const SOFT: bool>(state: &ElementState<'_, S>, variations: &Variations<S>) -> Self {
         let zero = [[Matrix3::zeros(); S]; S];
         let mut system = Self {
             angular_angular: zero,
@@ -236,15 +294,19 @@ impl<const S: usize, const C: usize> StageSystem<S, C> {
             let Wrench { moment, force } = &state.stage_wrench[k];
             for l in 0..S {
                 let map = &variations.stage[k][l];
-                let by_force = cross(force, &map.diagonal);
                 system.angular_angular[k][l] = -(cross(moment, &map.diagonal) + cross(force, &map.lower));
-                system.angular_linear[k][l] = -by_force;
-                system.linear_angular[k][l] = -by_force;
+                if SOFT {
+                    let by_force = cross(force, &map.diagonal);
+                    system.angular_linear[k][l] = -by_force;
+                    system.linear_angular[k][l] = -by_force;
+                }
             }
             let tangent = &state.response[k].tangent;
             system.angular_angular[k][k] += tangent.fixed_view::<3, 3>(0, 0);
-            system.angular_linear[k][k] += tangent.fixed_view::<3, 3>(0, 3);
-            system.linear_angular[k][k] += tangent.fixed_view::<3, 3>(3, 0);
+            if SOFT {
+                system.angular_linear[k][k] += tangent.fixed_view::<3, 3>(0, 3);
+                system.linear_angular[k][k] += tangent.fixed_view::<3, 3>(3, 0);
+            }
 
             // Ad_kᵀ = [[Rᵀ, −Rᵀ p^], [0, Rᵀ]]
             let (pose, residual) = (&state.kinematics.stage[k], state.residual(k));
@@ -254,36 +316,46 @@ impl<const S: usize, const C: usize> StageSystem<S, C> {
             let lever = cross(&pose.position, &pose.rotation).transpose();
             angular.fixed_view_mut::<3, 3>(0, WRENCH + 3).copy_from(&lever);
             angular.fixed_view_mut::<3, 1>(0, ONE).copy_from(&-residual.moment);
-            linear.fixed_view_mut::<3, 3>(0, WRENCH + 3).copy_from(&transpose);
-            linear.fixed_view_mut::<3, 1>(0, ONE).copy_from(&-residual.force);
+            if SOFT {
+                linear.fixed_view_mut::<3, 3>(0, WRENCH + 3).copy_from(&transpose);
+                linear.fixed_view_mut::<3, 1>(0, ONE).copy_from(&-residual.force);
+            }
         }
         system
     }
 
-    /// (δω, δν) of all stages.
+    /// Puts (δω, δν) of all stages where the right-hand sides are.
     #[inline(always)]
-    fn solve(&self, flexibility: &[Matrix3<f64>; S]) -> Option<[[SMatrix<f64, 3, C>; S]; 2]> {
-        let mut matrix = [[Matrix3::zeros(); S]; S];
-        let mut rhs = self.angular_rhs;
-        for k in 0..S {
-            matrix[k] = self.angular_angular[k];
-            for l in 0..S {
-                let factor = self.angular_linear[k][l] * flexibility[l];
-                for m in 0..S {
-                    matrix[k][m] -= factor * self.linear_angular[l][m];
+    fn solve<const SOFT: bool>(&mut self, flexibility: &[Matrix3<f64>; S], fixed: &[bool; 6]) -> Option<()> {
+        let (matrix, rhs) = (&mut self.angular_angular, &mut self.angular_rhs);
+        if SOFT {
+            for k in 0..S {
+                for l in 0..S {
+                    let factor = self.angular_linear[k][l] * flexibility[l];
+                    for m in 0..S {
+                        matrix[k][m] -= factor * self.linear_angular[l][m];
+                    }
+                    rhs[k] -= factor * self.linear_rhs[l];
                 }
-                rhs[k] -= factor * self.linear_rhs[l];
             }
         }
-        let angular = solve_rows(&matrix, &rhs)?;
-        let mut linear = self.linear_rhs;
+        if fixed[..3] == [false; 3] {
+            solve_rows(matrix, rhs)?;
+        } else {
+            solve_free_rows(matrix, rhs, fixed)?;
+        }
+        let linear = &mut self.linear_rhs;
+        if !SOFT {
+            linear.iter_mut().for_each(|linear| linear.fill(0.0));
+            return Some(());
+        }
         for k in 0..S {
             for l in 0..S {
-                linear[k] -= self.linear_angular[k][l] * angular[l];
+                linear[k] -= self.linear_angular[k][l] * rhs[l];
             }
             linear[k] = flexibility[k] * linear[k];
         }
-        Some([angular, linear])
+        Some(())
     }
 }
 

@@ -75,6 +75,10 @@ impl CrossSection for Composite {
     fn adapt_to(&mut self, at: &Station) -> Result<()> {
         self.parts.iter_mut().try_for_each(|(part, _)| part.adapt_to(at))
     }
+
+    fn breakpoints(&self) -> Vec<f64> {
+        self.parts.iter().flat_map(|(part, _)| part.breakpoints()).collect()
+    }
 }
 
 impl Geometry for Composite {

@@ -137,8 +137,10 @@ impl std::ops::Mul<f64> for AreaMoments {
 
 /// A section that knows its area: what gravity and inertia ask for.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` has no geometry, so its mass cannot be computed from a density",
-    note = "a `Section` has one; for a `Stiffness`, give the body a mass per length instead"
+    message = "`{Self}` has no shape, and its area is needed",
+    label = "needs a section with a shape",
+    note = "a `Section` has one: `Section::new(shape, material)?`",
+    note = "for gravity on a section without one, give the body a mass per length: `with_mass_per_length(kg_per_m)?`"
 )]
 pub trait Geometry: Send + Sync {
     /// Area and moments at arc length s, by the quadrature of the section itself.

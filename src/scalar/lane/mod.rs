@@ -51,6 +51,14 @@ pub trait Lane:
     /// The number in lane `i`.
     fn lane(self, i: usize) -> f64;
 
+    /// Writes the numbers into a slice, as many as it has room for.
+    #[inline(always)]
+    fn store(self, slice: &mut [f64]) {
+        for (i, to) in slice.iter_mut().enumerate().take(Self::LANES) {
+            *to = self.lane(i);
+        }
+    }
+
     /// self × a + b, fused where the machine does so.
     fn mul_add(self, a: Self, b: Self) -> Self;
 

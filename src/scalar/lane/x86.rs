@@ -140,6 +140,18 @@ impl Lane for Avx2 {
         values[i]
     }
     #[inline(always)]
+    fn store(self, slice: &mut [f64]) {
+        if slice.len() >= Self::LANES {
+            // SAFETY: the slice has four numbers; unaligned stores are allowed.
+            unsafe { _mm256_storeu_pd(slice.as_mut_ptr(), self.0) };
+            return;
+        }
+        let mut values = [0.0; 4];
+        // SAFETY: the array has four numbers.
+        unsafe { _mm256_storeu_pd(values.as_mut_ptr(), self.0) };
+        slice.copy_from_slice(&values[..slice.len()]);
+    }
+    #[inline(always)]
     fn mul_add(self, a: Self, b: Self) -> Self {
         // SAFETY: see the module.
         unsafe { Self(_mm256_fmadd_pd(self.0, a.0, b.0)) }
@@ -212,6 +224,18 @@ impl Lane for Avx512 {
         // SAFETY: the array has eight numbers.
         unsafe { _mm512_storeu_pd(values.as_mut_ptr(), self.0) };
         values[i]
+    }
+    #[inline(always)]
+    fn store(self, slice: &mut [f64]) {
+        if slice.len() >= Self::LANES {
+            // SAFETY: the slice has eight numbers; unaligned stores are allowed.
+            unsafe { _mm512_storeu_pd(slice.as_mut_ptr(), self.0) };
+            return;
+        }
+        let mut values = [0.0; 8];
+        // SAFETY: the array has eight numbers.
+        unsafe { _mm512_storeu_pd(values.as_mut_ptr(), self.0) };
+        slice.copy_from_slice(&values[..slice.len()]);
     }
     #[inline(always)]
     fn mul_add(self, a: Self, b: Self) -> Self {

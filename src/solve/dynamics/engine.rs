@@ -42,6 +42,7 @@ pub(super) fn on_mesh<B: Movable, const S: usize>(
     scene: &Scene<'_, B>,
     time: f64,
 ) -> Result<Core<S>, Box<Failure>> {
+    scene.check().map_err(|error| Failure::early(time, Reason::Options(error)))?;
     match Grid::new(scene.rod().body(), options.elements) {
         Ok(grid) => Ok(Core::new(grid)),
         Err(error) => Err(Failure::early(time, Reason::Inadmissible(error))),

@@ -111,13 +111,32 @@ impl<'r, B: Movable> Scene<'r, B> {
         self.rod
     }
 
+    /// Refuses what rods at rest may declare and rods in motion may not.
+    pub(super) fn check(&self) -> Result<()> {
+        let refused = |what| Err(Error::NotModelled { what, solver: "dynamics" });
+        let held = self.rod.base_support();
+        if !held.is_clamped() || held.held() != [0.0; 6] {
+            return refused("a base that is not clamped in the frame of its support");
+        }
+        if !self.rod.tip_support().is_free() {
+            return refused("a support at the tip");
+        }
+        if !self.rod.joints().is_empty() {
+            return refused("joints between the ends");
+        }
+        if !self.rod.body().constraint().is_none() {
+            return refused("a body with fixed strains");
+        }
+        Ok(())
+    }
+
     pub(super) fn is_free(&self) -> bool {
         matches!(self.base, Base::Free)
     }
 
     /// Whether nothing acts on the rod, and nothing in it takes energy.
     pub(super) fn is_alone(&self) -> bool {
-        let tip = self.tip_loads.is_empty() && self.rod.tip_loads().is_empty();
+        let tip = self.tip_loads.is_empty() && self.rod.tip_fixture().loads.is_empty();
         let damped = self.rod.body().viscosity(0.0).is_ok_and(|viscosity| viscosity.is_some());
         self.is_free() && tip && !self.has_loads() && !damped
     }
@@ -171,7 +190,7 @@ impl<'r, B: Movable> Scene<'r, B> {
     /// The load on the tip.
     pub(super) fn tip_load(&self, amplitudes: &Amplitudes, pose: &Pose) -> Result<LoadWrench> {
         let mut total = none();
-        for load in self.rod.tip_loads() {
+        for load in &self.rod.tip_fixture().loads {
             add(&mut total, &load.at(pose)?, 1.0);
         }
         for ((load, _), &amplitude) in self.tip_loads.iter().zip(&amplitudes.tip_loads) {
