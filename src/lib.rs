@@ -146,7 +146,7 @@
 //! | [`body`] | length, section, reference strain, and mass where a scene asks for it |
 //! | [`load`] | gravity through the centre of mass, and tip wrenches, with exact derivatives |
 //! | [`rod`] | the scene, and the collocation element in the strains |
-//! | [`solve`] | Newton's method, the static solver with an accuracy or on a mesh, and its reports |
+//! | [`solve`] | Newton's method, the static solver with an accuracy or on a mesh, motion in [`dynamics`](solve::dynamics), and reports |
 //!
 //! # Ladder of models
 //!
@@ -167,7 +167,7 @@
 //!
 //! # What is not there yet
 //!
-//! * Dynamics and damping. The solver is static.
+//! * Supports at the tip, joints and fixed strains in motion: [`dynamics`](solve::dynamics) knows rods that are clamped, driven or free at their base.
 //! * Sections that contract, warp or ovalise. A rigid section is too stiff for rubber unless the constants are chosen for it (correction 3).
 //! * Ends other than clamped and free; follower loads, tendons, pressure; rods joined to rods.
 //! * A stability check: the solver finds an equilibrium, and does not say whether it is a stable one. It applies the load in one step.
