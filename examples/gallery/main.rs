@@ -9,10 +9,12 @@ mod figure;
 mod ribbon_view;
 mod tube;
 
+mod buckled_strut;
 mod graded_stiffness;
 mod helix;
 mod poynting;
 mod ribbon;
+mod snapping_arch;
 mod soft_arm;
 mod square_bar;
 mod tendon_gripper;
@@ -24,10 +26,12 @@ use std::time::Instant;
 /// What a scene is called, and what draws it; `quick` asks for a coarse mesh.
 type Scene = (&'static str, fn(quick: bool, picture: &Path) -> Outcome);
 
-const SCENES: [Scene; 7] = [
+const SCENES: [Scene; 9] = [
     ("soft_arm", soft_arm::draw),
     ("helix", helix::draw),
     ("tendon_gripper", tendon_gripper::draw),
+    ("buckled_strut", buckled_strut::draw),
+    ("snapping_arch", snapping_arch::draw),
     ("square_bar", square_bar::draw),
     ("poynting", poynting::draw),
     ("ribbon", ribbon::draw),
@@ -49,7 +53,12 @@ fn main() -> Outcome {
         draw(figure::flag("--quick"), &picture)?;
         println!("{name:<18}{:>8.2} s  {}", start.elapsed().as_secs_f64(), picture.display());
         if figure::flag("--docs") {
-            figure::copy_to_docs(&picture, &format!("gallery_{name}.svg"))?;
+            for part in [name.to_string(), format!("{name}_path")] {
+                let picture = output.path(&format!("{part}.svg"));
+                if picture.exists() {
+                    figure::copy_to_docs(&picture, &format!("gallery_{part}.svg"))?;
+                }
+            }
         }
     }
     Ok(())

@@ -29,9 +29,9 @@ pub fn draw(quick: bool, picture: &Path) -> Outcome {
     });
     let title = "Poynting effect: a twisted incompressible cylinder grows longer";
     Chart::new(title, "twist times radius, rad", "elongation, %")
-        .dots("C₂ = 0, exact (Rivlin)", exact)
         .line("C₂ = 0 (neo-Hookean)", curve(0.0, step)?)
         .line("C₂ = C₁", curve(0.5, step)?)
         .line("C₁ = 0", curve(1.0, step)?)
+        .marks("C₂ = 0, exact (Rivlin)", exact)
         .save(picture)
 }

@@ -24,7 +24,12 @@ pub fn ribbon(
         };
         let corners = vec![rim(&ends[0], -1.0), rim(&ends[0], 1.0), rim(&ends[1], 1.0), rim(&ends[1], -1.0)];
         let seen = toward_eye.dot(&ends[0].rotation.column(1).into_owned()) > 0.0;
-        drawing = drawing.cell(corners, if seen { front } else { back });
+        let color = if seen { front } else { back };
+        // the rims across hide the seams
+        drawing = drawing
+            .line(corners[..2].to_vec(), color)
+            .line(corners[2..].to_vec(), color)
+            .cell(corners, color);
     }
     drawing
 }
