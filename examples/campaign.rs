@@ -13,7 +13,9 @@ use std::time::Instant;
 
 use hyperrod::lie::se3;
 use hyperrod::load::{DeadLoad, DeadWrench, FollowerLoad, FollowerWrench, Gravity};
-use hyperrod::material::{Gent, IsochoricNeoHookean, LinearElastic, Material, MooneyRivlin, NeoHookean};
+use hyperrod::material::{
+    Gent, IsochoricNeoHookean, LinearElastic, Material, MooneyRivlin, NeoHookean, ReferencePressure,
+};
 use hyperrod::rod::{Freedom, Support};
 use hyperrod::section::{Annulus, Circle, CrossSection, Linear, Rectangle, Section, Shape, Stiffness};
 use hyperrod::solve::{Failure, Stability};
@@ -101,7 +103,7 @@ fn section(
     let (name, law): (_, Box<dyn Material>) = match random.pick(5) {
         0 => ("linear", Box::new(LinearElastic::new(3.0 * mu, mu)?)),
         1 => ("neo-Hookean", Box::new(NeoHookean::new(mu, lambda)?)),
-        2 => ("Mooney-Rivlin", Box::new(MooneyRivlin::new(0.35 * mu, 0.15 * mu)?)),
+        2 => ("Mooney-Rivlin", Box::new(ReferencePressure(MooneyRivlin::new(0.35 * mu, 0.15 * mu)?))),
         3 => ("isochoric neo-Hookean", Box::new(IsochoricNeoHookean::new(mu, lambda + 0.67 * mu)?)),
         _ => ("Gent", Box::new(Gent::new(mu, lambda, random.between(20.0, 60.0))?)),
     };

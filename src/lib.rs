@@ -129,7 +129,8 @@
 //!    ```
 //!
 //!    where the second is the Young's modulus of the incompressible rubber itself. A compressible law on a rigid section likewise has the axial
-//!    modulus λ + 2μ instead of E = μ(3λ + 2μ)/(λ + μ). On a rigid section, choose the constants for the moduli the rod shall have.
+//!    modulus λ + 2μ instead of E = μ(3λ + 2μ)/(λ + μ). On a rigid section, choose the constants for the moduli the rod shall
+//!    have; a [`Relaxed`](section::Relaxed) one takes those of the material.
 //!
 //! # Layers
 //!

@@ -50,6 +50,8 @@ pub(super) struct Cascade<'r, 'o, B, const S: usize> {
     pub(super) report: Report,
     /// Whether an equilibrium that would not stay is an answer.
     pub(super) accept_unstable: bool,
+    /// Whether the first mesh already is to have a stable state: after an answer that was none.
+    pub(super) careful: bool,
     /// Neutral modes of the last state whose stability was told.
     pub(super) neutral: usize,
 }
@@ -63,11 +65,26 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         buffers: &'o mut Buffers<S>,
         accept_unstable: bool,
     ) -> Self {
-        Self { rod, newton, buffers, report: Report::default(), accept_unstable, neutral: 0 }
+        Self { rod, newton, buffers, report: Report::default(), accept_unstable, careful: false, neutral: 0 }
     }
 
     /// A mesh of so many equal elements, then one of twice as many, which is the answer.
     pub(super) fn on_mesh(&mut self, coarse_elements: usize) -> Solved {
+        self.twice(|cascade| cascade.on_mesh_once(coarse_elements))
+    }
+
+    /// Once more, looking for a stable state from the first mesh on, where the answer is not one.
+    fn twice(&mut self, solve: impl Fn(&mut Self) -> Solved) -> Solved {
+        match solve(self) {
+            Err(failure) if !self.careful && retried(&failure.reason) => {
+                self.careful = true;
+                solve(self)
+            }
+            solved => solved,
+        }
+    }
+
+    fn on_mesh_once(&mut self, coarse_elements: usize) -> Solved {
         self.check_supports()?;
         let coarse_mesh = Mesh::<B, S>::uniform(self.rod, coarse_elements);
         let (coarse_mesh, coarse) = self.climb(std::iter::once(coarse_mesh))?;
@@ -87,6 +104,10 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
 
     /// Cuts elements until the estimated error is below `accuracy`.
     pub(super) fn to(&mut self, accuracy: f64) -> Solved {
+        self.twice(|cascade| cascade.to_once(accuracy))
+    }
+
+    fn to_once(&mut self, accuracy: f64) -> Solved {
         self.check_supports()?;
         let length = self.rod.body().length();
         self.newton.stop = Stop::Error(FIRST_NEWTON);
@@ -205,6 +226,11 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         };
         Ok(describe(mesh, &outcome.unknowns.strains, state, self.report.clone()))
     }
+}
+
+/// Whether a failure may be one of a state that would not stay, or that costs nothing to turn.
+fn retried(reason: &Reason) -> bool {
+    matches!(reason, Reason::Unstable { .. } | Reason::Accuracy { .. })
 }
 
 /// The error of the finer of two meshes: d = E − E′ and E′ ≈ R E, with the gain R read off the defects, or off the order of the element

@@ -13,7 +13,14 @@ use num_dual::{Dual2_64, DualNum};
 use super::reference::{data, number, rotation};
 use super::shooting::{Shooting, State, ad_transpose, hat, join};
 
-const STATICS: Statics = Statics { elements: 64, order: Order::Six, tolerance: 1e-10, ..Statics::DEFAULT };
+const STATICS: Statics = Statics {
+    elements: 64,
+    order: Order::Six,
+    tolerance: 1e-10,
+    max_iterations: 50,
+    accuracy: None,
+    accept_unstable: true,
+};
 
 /// Closed form: tendons parallel to the axis give a constant strain, and g(L) = exp(L ξ^).
 #[test]
@@ -338,4 +345,26 @@ fn a_tendon_given_by_its_length_closes_on_it() {
         slack.reason.to_string(),
         "length of the tendon is 0.45, but must be shorter than the slack tendon"
     );
+}
+
+/// To an accuracy, on a mesh of the solver's choice, with an end that no even mesh has a node at.
+#[test]
+fn a_tendon_that_ends_anywhere_is_solved_to_an_accuracy() {
+    let end = 0.1234;
+    let section =
+        Stiffness::diagonal(K).unwrap().with_actuator(converging_tendon(0.9).ending_at(end).unwrap());
+    let rod = Rod::clamped(Body::new(LENGTH, section).unwrap(), Pose::identity())
+        .with_tip_load(DeadWrench::force(FORCE).unwrap());
+    let solution = Statics::to(1e-9).solve(&rod).unwrap();
+    assert!(solution.nodes().iter().any(|node| node.s == end));
+    let guess = solution.base().strain.to_vector();
+    let error = difference(&solution, &shoot(&[(0.9, converging, end)], &[0.0, end, LENGTH], guess));
+    println!("{error:.1e}, {} elements", solution.nodes().len() - 1);
+    assert!(error < 1e-9, "{error:.1e}");
+    // no more than twice what the same tendon needs that goes on to the tip
+    let whole = Stiffness::diagonal(K).unwrap().with_actuator(converging_tendon(0.9));
+    let whole = Rod::clamped(Body::new(LENGTH, whole).unwrap(), Pose::identity())
+        .with_tip_load(DeadWrench::force(FORCE).unwrap());
+    let needed = Statics::to(1e-9).solve(&whole).unwrap().nodes().len();
+    assert!(solution.nodes().len() < 2 * needed, "{} nodes, {needed}", solution.nodes().len());
 }

@@ -219,4 +219,9 @@ fn the_ladder_is_climbed_until_the_wrench_stays_and_thin_sections_are_told() {
     let (_, report) =
         Relaxed::new(Rectangle::new(1.0, 10.0), rubber()).unwrap().choose(1e-9, &range).unwrap();
     assert!(!report.reached && report.thin && report.to_string().contains("thin"), "{report}");
+    // an L, whose inner corner polynomials cannot follow
+    let corners = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.4], [0.4, 0.4], [0.4, 1.0], [0.0, 1.0]];
+    let angle = hyperrod::section::Polygon::new(corners).unwrap().shifted(-0.35, -0.35);
+    let (_, report) = Relaxed::new(angle, rubber()).unwrap().choose(1e-4, &range).unwrap();
+    assert!(!report.reached && report.to_string().contains("re-entrant"), "{report}");
 }

@@ -22,9 +22,9 @@ use nalgebra::{DMatrix, DVector};
 use self::condense::condense;
 use self::equilibrium::Problem;
 use self::modes::Modes;
-use super::CrossSection;
 use super::geometry::{AreaMoments, Geometry};
 use super::shape::Shape;
+use super::{CrossSection, Section};
 use crate::error::{Error, Result};
 use crate::lie::Strain;
 use crate::material::{Local, Request, Response, Station, check_strain};
@@ -118,8 +118,9 @@ impl Relaxation {
 }
 
 impl<S: Shape, M: Local> Relaxed<S, M> {
-    /// The smallest degree of the quadrature, unless another is asked for or the shape has no rule of it: as for a rigid section.
-    const LEAST_DEGREE: usize = 12;
+    /// The smallest degree of the quadrature, unless another is asked for or the shape has no rule of it. The displacements' own error is
+    /// larger than that of this rule; with none it is as for a rigid section.
+    const LEAST_DEGREE: usize = 8;
 
     /// A section of the given shape and material with the functions of [`Warping::TORSION`].
     ///
@@ -189,7 +190,7 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
 
     /// The same with a quadrature exact for polynomials of this degree in (x, y).
     ///
-    /// Without it the degree is 2 max(p, r) + 2 (twice that on a tube) and at least 12: exact for the second derivatives at rest, and at finite strain with an
+    /// Without it the degree is 2 max(p, r) + 2 (twice that on a tube) and at least 8: exact for the second derivatives at rest, and at finite strain with an
     /// error below that of the displacements.
     ///
     /// # Errors
@@ -239,7 +240,9 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
     fn quadrature_degree(&self) -> usize {
         // a rule of degree d on a tube has d/4 + 1 radii, and functions of degree k in the radius want k + 1 and some
         let factor = if self.shape.is_ring() { 4 } else { 2 };
-        let degree = (factor * (self.warping.degree() + 1)).max(Self::LEAST_DEGREE);
+        let least =
+            if self.warping == Warping::RIGID { Section::<S, M>::DEFAULT_DEGREE } else { Self::LEAST_DEGREE };
+        let degree = (factor * (self.warping.degree() + 1)).max(least);
         self.degree.unwrap_or(degree.min(self.shape.max_degree()))
     }
 

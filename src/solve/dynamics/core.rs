@@ -145,12 +145,11 @@ impl<const S: usize> Core<S> {
 
     /// Internal wrenches, with tangents if `request` says so, and loads.
     pub(super) fn respond<B: Movable>(&mut self, scene: &Scene<'_, B>, request: Request) -> Result<()> {
-        let body = scene.rod().body();
         let loaded = scene.has_loads();
         for i in 0..self.grid.elements {
             for k in 0..S {
                 let s = self.grid.stage_s(i, k);
-                let response = body.respond(s, &self.strain[i][k], request)?;
+                let response = scene.respond(&self.amplitudes, s, &self.strain[i][k], request)?;
                 self.energy[i][k] = response.energy;
                 self.wrench[i][k] = response.wrench;
                 if request >= Request::Tangent {

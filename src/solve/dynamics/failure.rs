@@ -63,7 +63,7 @@ pub enum Reason {
 }
 
 /// A run that ended early: when, why, and the last good state.
-#[derive(Clone, Debug, PartialEq, Error)]
+#[derive(Clone, PartialEq, Error)]
 #[error("at t = {time} s: {reason}")]
 pub struct Failure {
     /// The time to which the step was to lead, s.
@@ -81,5 +81,15 @@ impl Failure {
     /// Before there is a state.
     pub(super) fn early(time: f64, reason: Reason) -> Box<Self> {
         Box::new(Self { time, reason, last: None, frame: None })
+    }
+}
+
+/// Without the numbers of the state, which are many.
+impl std::fmt::Debug for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Failure")
+            .field("time", &self.time)
+            .field("reason", &self.reason)
+            .finish_non_exhaustive()
     }
 }

@@ -4,6 +4,7 @@
 //! time scheme makes of the difference are velocities and accelerations at the Gauss stages, and these make a load. So an instant is
 //! a static problem with another load, whose tangent is exact but for what is of higher order than the element.
 
+mod alpha;
 mod begin;
 mod conserve;
 mod core;
@@ -19,6 +20,7 @@ mod options;
 mod present;
 mod relation;
 mod report;
+mod runge_kutta;
 mod scene;
 mod scheme;
 mod state;

@@ -2,9 +2,11 @@ use num_dual::Dual2_64;
 
 use crate::body::{Dissipative, Elastic, HasMass};
 use crate::error::{Error, Result};
-use crate::lie::{Pose, Twist};
+use crate::lie::{Pose, Strain, Twist};
 use crate::load::{Load, LoadWrench, TipLoad};
+use crate::material::{Request, Response, Station};
 use crate::rod::Rod;
+use crate::section::{Actuated, Actuator, CrossSection};
 
 /// A body that can move: elastic, with a mass, and damped or not.
 ///
@@ -51,12 +53,22 @@ pub struct Scene<'r, B> {
     base: Base,
     loads: Vec<(Box<dyn Load<B> + 'r>, Amplitude)>,
     tip_loads: Vec<(Box<dyn TipLoad + 'r>, Amplitude)>,
+    actuators: Vec<(Actuated<Nothing>, Amplitude)>,
+}
+
+/// A section without any stiffness, for actuators to be added to.
+struct Nothing;
+
+impl CrossSection for Nothing {
+    fn respond(&self, _at: &Station, _strain: &Strain, _request: Request) -> Result<Response> {
+        Ok(Response::zero())
+    }
 }
 
 impl<'r, B: Movable> Scene<'r, B> {
     /// The rod with its loads, clamped as it says.
     pub fn new(rod: &'r Rod<B>) -> Self {
-        Self { rod, base: Base::Clamped, loads: Vec::new(), tip_loads: Vec::new() }
+        Self { rod, base: Base::Clamped, loads: Vec::new(), tip_loads: Vec::new(), actuators: Vec::new() }
     }
 
     /// The same with a load per length, multiplied by a function of time in s.
@@ -76,6 +88,34 @@ impl<'r, B: Movable> Scene<'r, B> {
         amplitude: impl Fn(f64) -> f64 + Send + Sync + 'static,
     ) -> Self {
         self.tip_loads.push((Box::new(load), Box::new(amplitude)));
+        self
+    }
+
+    /// The same with an actuator whose energy is multiplied by a function of time in s: a tendon of tension 1 N and its tension in N, a chamber
+    /// and its pressure.
+    ///
+    /// An actuator that ends before the tip wants a node of the mesh there. Its energy counts as elastic.
+    ///
+    /// ```
+    /// use hyperrod::load::Gravity;
+    /// use hyperrod::section::{Stiffness, Tendon};
+    /// use hyperrod::solve::dynamics::{Dynamics, Scene, Start};
+    /// use hyperrod::{Body, Pose, Rod};
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let body = Body::new(0.3, Stiffness::diagonal([4e-3, 4e-3, 3e-3, 50.0, 50.0, 150.0])?)?.with_mass_per_length(0.3)?;
+    /// let rod = Rod::clamped(body, Pose::identity());
+    /// let scene = Scene::new(&rod).with_actuator(Tendon::new([8e-3, 0.0], 1.0)?, |t| 2.0 * (t / 0.1).min(1.0));
+    /// let frame = Dynamics::default().run(&scene, &Start::at_rest(), 0.1, |_| ())?;
+    /// assert!(frame.tip().pose.position.x > 0.01); // pulled to the side of the tendon
+    /// # Ok(()) }
+    /// ```
+    pub fn with_actuator(
+        mut self,
+        actuator: impl Actuator + 'static,
+        amplitude: impl Fn(f64) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        self.actuators.push((Actuated::new(Nothing).with_actuator(actuator), Box::new(amplitude)));
         self
     }
 
@@ -127,6 +167,9 @@ impl<'r, B: Movable> Scene<'r, B> {
         if !self.rod.body().constraint().is_none() {
             return refused("a body with fixed strains");
         }
+        if self.is_free() && !self.rod.base_fixture().loads.is_empty() {
+            return refused("a load on a free base");
+        }
         Ok(())
     }
 
@@ -138,7 +181,7 @@ impl<'r, B: Movable> Scene<'r, B> {
     pub(super) fn is_alone(&self) -> bool {
         let tip = self.tip_loads.is_empty() && self.rod.tip_fixture().loads.is_empty();
         let damped = self.rod.body().viscosity(0.0).is_ok_and(|viscosity| viscosity.is_some());
-        self.is_free() && tip && !self.has_loads() && !damped
+        self.is_free() && tip && self.actuators.is_empty() && !self.has_loads() && !damped
     }
 
     /// Pose, body velocity and body acceleration of the base.
@@ -163,16 +206,41 @@ impl<'r, B: Movable> Scene<'r, B> {
         into.tip_loads.clear();
         into.loads.extend(self.loads.iter().map(|(_, amplitude)| amplitude(t)));
         into.tip_loads.extend(self.tip_loads.iter().map(|(_, amplitude)| amplitude(t)));
-        match into.loads.iter().chain(&into.tip_loads).find(|a| !a.is_finite()) {
+        into.actuators.clear();
+        into.actuators.extend(self.actuators.iter().map(|(_, amplitude)| amplitude(t)));
+        match into.loads.iter().chain(&into.tip_loads).chain(&into.actuators).find(|a| !a.is_finite()) {
             None => Ok(()),
-            Some(&value) => {
-                Err(Error::Invalid { quantity: "amplitude of a load", value, requirement: "finite" })
-            }
+            Some(&value) => Err(Error::Invalid {
+                quantity: "amplitude of a load or actuator",
+                value,
+                requirement: "finite",
+            }),
         }
     }
 
     pub(super) fn has_loads(&self) -> bool {
         !(self.loads.is_empty() && self.rod.loads().is_empty())
+    }
+
+    /// The response of the body and of the timed actuators.
+    #[inline]
+    pub(super) fn respond(
+        &self,
+        amplitudes: &Amplitudes,
+        s: f64,
+        strain: &Strain,
+        request: Request,
+    ) -> Result<Response> {
+        let body = self.rod.body();
+        let mut total = body.respond(s, strain, request)?;
+        for ((actuator, _), &amplitude) in self.actuators.iter().zip(&amplitudes.actuators) {
+            let station = Station { s, reference: body.reference(s) };
+            let response = actuator.respond(&station, strain, request)?;
+            total.energy += response.energy * amplitude;
+            total.wrench += response.wrench * amplitude;
+            total.tangent += response.tangent * amplitude;
+        }
+        Ok(total)
     }
 
     /// The load per length.
@@ -212,6 +280,7 @@ impl<B> std::fmt::Debug for Scene<'_, B> {
 pub(super) struct Amplitudes {
     loads: Vec<f64>,
     tip_loads: Vec<f64>,
+    actuators: Vec<f64>,
 }
 
 pub(super) fn none() -> LoadWrench {

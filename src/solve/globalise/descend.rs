@@ -13,11 +13,8 @@ use crate::solve::report::Iteration;
 use crate::solve::stability::{Verdict, chain};
 use crate::solve::unknowns::Unknowns;
 
-/// Iterations at the most.
-const ITERATIONS: usize = 300;
-
-/// How often μ may be raised in one of them.
-const RAISES: usize = 30;
+/// Models of the energy that are looked at, at the most: an iteration looks at one or more.
+const MODELS: usize = 400;
 
 /// μ where it is raised from nothing.
 const FIRST: f64 = 0.05;
@@ -55,8 +52,9 @@ pub(super) fn descend<B: Elastic, const S: usize>(
     mesh.configure(&unknowns, &mut state).ok()?;
     let mut trial = buffers.configuration();
     let mut mu = 0.0;
-    for _ in 0..ITERATIONS {
-        let step = convex_step(mesh, &unknowns, &state, buffers, &mut mu)?;
+    let mut models = 0;
+    while models < MODELS {
+        let step = convex_step(mesh, &unknowns, &state, buffers, &mut mu, &mut models)?;
         let mut fraction = if step.rotation > CAP { CAP / step.rotation } else { 1.0 };
         loop {
             buffers.move_by(&unknowns, fraction);
@@ -92,11 +90,13 @@ fn convex_step<B: Elastic, const S: usize>(
     state: &Configuration<S>,
     buffers: &mut Buffers<S>,
     mu: &mut f64,
+    models: &mut usize,
 ) -> Option<Step> {
     let scale = scale(mesh, state);
     let soft = softening(mesh, state).is_some();
     let mut model = state.clone();
-    for _ in 0..RAISES {
+    while *models < MODELS {
+        *models += 1;
         for (modelled, response) in model.response.iter_mut().flatten().zip(state.response.iter().flatten()) {
             let stiff = if soft { convex(&response.tangent) } else { response.tangent };
             modelled.tangent = response.tangent + stiff * *mu;

@@ -50,6 +50,9 @@ pub(super) struct Swept {
 impl Chain {
     /// The index under the essential conditions of both ends; an eigenvalue of the last pivot below `neutral` is nothing.
     pub(crate) fn verdict(&self, neutral: f64) -> Verdict {
+        if self.is_surely_stable() {
+            return Verdict::Index { unstable: 0, neutral: 0 };
+        }
         match self.sweep() {
             Ok(swept) => match swept.last.count(neutral) {
                 Some((last, neutral)) => Verdict::Index { unstable: swept.before + last, neutral },
