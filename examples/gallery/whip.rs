@@ -1,4 +1,5 @@
-//! A whip: a tapered rubber rod whose handle is turned by a right angle in 0.15 s and then stopped. The tip goes on, and ever faster.
+//! A whip: a tapered rubber rod whose handle is turned by a right angle in 0.15 s and then stopped. The wave arrives at the tip later,
+//! which is fastest when the handle has long been still.
 
 use crate::figure::{BLUE, Chart, Drawing, GREEN, ORANGE, Outcome, PURPLE, SKY};
 use hyperrod::lie::so3;
