@@ -4,7 +4,7 @@ use super::describe::{describe, failed};
 use super::equilibrium::Configuration;
 use super::estimate::{Defect, Level, difference, first_elements};
 use super::failure::{Failure, Reason};
-use super::globalise::unstable;
+use super::globalise::{NEUTRAL, unstable};
 use super::linear::Buffers;
 use super::mesh::Mesh;
 use super::newton::{Newton, Outcome, Stop};
@@ -50,6 +50,10 @@ pub(super) struct Cascade<'r, 'o, B, const S: usize> {
     pub(super) report: Report,
     /// Whether an equilibrium that would not stay is an answer.
     pub(super) accept_unstable: bool,
+    /// Whether the first mesh already is to have a stable state: after an answer that was none.
+    pub(super) careful: bool,
+    /// Neutral modes of the last state whose stability was told.
+    pub(super) neutral: usize,
 }
 
 type Solved = Result<StaticSolution, Box<Failure>>;
@@ -61,17 +65,34 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         buffers: &'o mut Buffers<S>,
         accept_unstable: bool,
     ) -> Self {
-        Self { rod, newton, buffers, report: Report::default(), accept_unstable }
+        Self { rod, newton, buffers, report: Report::default(), accept_unstable, careful: false, neutral: 0 }
     }
 
     /// A mesh of so many equal elements, then one of twice as many, which is the answer.
     pub(super) fn on_mesh(&mut self, coarse_elements: usize) -> Solved {
+        self.twice(|cascade| cascade.on_mesh_once(coarse_elements))
+    }
+
+    /// Once more, looking for a stable state from the first mesh on, where the answer is not one.
+    fn twice(&mut self, solve: impl Fn(&mut Self) -> Solved) -> Solved {
+        match solve(self) {
+            Err(failure) if !self.careful && retried(&failure.reason) => {
+                self.careful = true;
+                solve(self)
+            }
+            solved => solved,
+        }
+    }
+
+    fn on_mesh_once(&mut self, coarse_elements: usize) -> Solved {
         self.check_supports()?;
         let coarse_mesh = Mesh::<B, S>::uniform(self.rod, coarse_elements);
         let (coarse_mesh, coarse) = self.climb(std::iter::once(coarse_mesh))?;
         let parts = vec![2; coarse_mesh.elements()];
-        let mesh = coarse_mesh.refined(&parts);
-        let fine = self.solve(&mesh, coarse.unknowns.prolonged(&coarse_mesh, &parts))?;
+        let mut mesh = coarse_mesh.refined(&parts);
+        let start = coarse.unknowns.prolonged(&coarse_mesh, &parts);
+        self.hold_neutral_modes(&mut mesh, &start);
+        let fine = self.solve(&mesh, start)?;
         if let (Some(coarse), Some(fine)) = (&coarse.state, &fine.state) {
             // a difference of (2^p − 1) errors of the finer one
             let factor = 1.0 / (4.0_f64.powi(S as i32) - 1.0);
@@ -83,6 +104,10 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
 
     /// Cuts elements until the estimated error is below `accuracy`.
     pub(super) fn to(&mut self, accuracy: f64) -> Solved {
+        self.twice(|cascade| cascade.to_once(accuracy))
+    }
+
+    fn to_once(&mut self, accuracy: f64) -> Solved {
         self.check_supports()?;
         let length = self.rod.body().length();
         self.newton.stop = Stop::Error(FIRST_NEWTON);
@@ -155,7 +180,12 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         Ok(Self::level_of(mesh, outcome))
     }
 
-    fn level(&mut self, mesh: Mesh<'r, B, S>, start: Unknowns<S>) -> Result<Level<'r, B, S>, Box<Failure>> {
+    fn level(
+        &mut self,
+        mut mesh: Mesh<'r, B, S>,
+        start: Unknowns<S>,
+    ) -> Result<Level<'r, B, S>, Box<Failure>> {
+        self.hold_neutral_modes(&mut mesh, &start);
         let outcome = self.solve(&mesh, start)?;
         Ok(Self::level_of(mesh, outcome))
     }
@@ -175,6 +205,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
     ) -> Result<Outcome<S>, Box<Failure>> {
         let outcome = self.newton.solve(mesh, start, self.buffers, &mut self.report.iterations);
         self.report.residual = outcome.residual;
+        self.buffers.neutral.clear();
         if outcome.failure.is_some() {
             return Err(failed(mesh, outcome, self.report.clone()));
         }
@@ -182,7 +213,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
     }
 
     fn answer(&mut self, mesh: &Mesh<'_, B, S>, outcome: &Outcome<S>) -> Solved {
-        self.report.stability = self.stability_of(mesh, outcome);
+        self.report.stability = self.stability_of(mesh, outcome, NEUTRAL);
         if self.report.stability.is_unstable() && !self.accept_unstable {
             return Err(unstable(mesh, outcome, self.report.stability, self));
         }
@@ -195,6 +226,11 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         };
         Ok(describe(mesh, &outcome.unknowns.strains, state, self.report.clone()))
     }
+}
+
+/// Whether a failure may be one of a state that would not stay, or that costs nothing to turn.
+fn retried(reason: &Reason) -> bool {
+    matches!(reason, Reason::Unstable { .. } | Reason::Accuracy { .. })
 }
 
 /// The error of the finer of two meshes: d = E − E′ and E′ ≈ R E, with the gain R read off the defects, or off the order of the element

@@ -14,6 +14,9 @@ use crate::lie::Pose;
 use crate::load::LoadWrench;
 use crate::rod::condense::{Condensed, Transfer};
 
+/// By how much a tangent with neutral modes is made stiffer.
+const STIFFER: f64 = 1e-7;
+
 /// Displacement ζ and change of wrench δΛ of a node.
 pub(crate) type NodeStep = (Vector6<f64>, Vector6<f64>);
 
@@ -43,6 +46,8 @@ pub(crate) struct Buffers<const S: usize> {
     pub(super) chain: Chain,
     /// The last step.
     pub(super) step: Increment<S>,
+    /// Modes that cost nothing: no step has a part of them.
+    pub(super) neutral: Vec<Increment<S>>,
     /// Unknowns of the state being tried.
     pub(crate) trial: Unknowns<S>,
     spare: Vec<Configuration<S>>,
@@ -55,6 +60,7 @@ impl<const S: usize> Default for Buffers<S> {
             sweep: Sweep::default(),
             chain: Chain::default(),
             step: Increment { strains: Vec::new(), nodes: Vec::new(), reactions: Vec::new() },
+            neutral: Vec::new(),
             trial: Unknowns::default(),
             spare: Vec::new(),
         }
@@ -85,8 +91,40 @@ impl<const S: usize> Buffers<S> {
         state: &Configuration<S>,
         scale: &Scale,
     ) -> Result<Step> {
-        self.condense(mesh, unknowns, state)?;
-        self.solve_condensed(mesh, state, scale)
+        if self.neutral.is_empty() {
+            self.condense(mesh, unknowns, state)?;
+            return self.solve_condensed(mesh, state, scale);
+        }
+        // singular but for rounding: a little stiffer, so that what there is of the modes stays small until it is taken out
+        let mut stiffer = state.clone();
+        stiffer.response.iter_mut().flatten().for_each(|response| response.tangent *= 1.0 + STIFFER);
+        self.condense(mesh, unknowns, &stiffer)?;
+        self.solve_condensed(mesh, &stiffer, scale)?;
+        self.without_neutral_modes(scale.length);
+        self.measured(scale.length)
+    }
+
+    /// Takes the neutral modes out of the step, in the product Σ δω·δω L² + δν·δν over the stages.
+    fn without_neutral_modes(&mut self, length: f64) {
+        let product = |a: &StageStrains<S>, b: &StageStrains<S>| -> f64 {
+            let pair = |(a, b): (&crate::lie::Strain, &crate::lie::Strain)| {
+                a.angular.dot(&b.angular) * length * length + a.linear.dot(&b.linear)
+            };
+            a.iter().flatten().zip(b.iter().flatten()).map(pair).sum()
+        };
+        for mode in &self.neutral {
+            let part = -product(&self.step.strains, &mode.strains) / product(&mode.strains, &mode.strains);
+            if !part.is_finite() || mode.nodes.len() != self.step.nodes.len() {
+                continue;
+            }
+            for (to, from) in self.step.strains.iter_mut().flatten().zip(mode.strains.iter().flatten()) {
+                *to += *from * part;
+            }
+            for (to, from) in self.step.nodes.iter_mut().zip(&mode.nodes) {
+                to.0 += from.0 * part;
+                to.1 += from.1 * part;
+            }
+        }
     }
 
     /// The same about elements that are condensed.
@@ -142,19 +180,23 @@ impl<const S: usize> Buffers<S> {
 
     /// The strains from the nodes, and the size of it all.
     fn finish<B: Elastic>(&mut self, mesh: &Mesh<'_, B, S>, scale: &Scale) -> Result<Step> {
-        let length = scale.length;
-        let mut step = Step { size: 0.0, rotation: 0.0 };
         self.step.strains.clear();
-        for (i, (zeta, wrench)) in self.step.nodes.iter().enumerate() {
+        let nodes = self.step.nodes.iter().take(mesh.elements());
+        self.step.strains.extend(
+            nodes.zip(&self.condensed).map(|((zeta, wrench), element)| element.strain_step(zeta, wrench)),
+        );
+        self.measured(scale.length)
+    }
+
+    /// How large the step is.
+    fn measured(&self, length: f64) -> Result<Step> {
+        let mut step = Step { size: 0.0, rotation: 0.0 };
+        for (zeta, _) in &self.step.nodes {
             step.rotation = step.rotation.max(zeta.fixed_rows::<3>(0).norm());
             step.size = step.size.max(zeta.fixed_rows::<3>(3).norm() / length);
-            if i < mesh.elements() {
-                let increment = self.condensed[i].strain_step(zeta, wrench);
-                for strain in &increment {
-                    step.size = step.size.max(strain.linear.norm()).max(strain.angular.norm() * length);
-                }
-                self.step.strains.push(increment);
-            }
+        }
+        for strain in self.step.strains.iter().flatten() {
+            step.size = step.size.max(strain.linear.norm()).max(strain.angular.norm() * length);
         }
         step.size = step.size.max(step.rotation);
         let mut nodes = self.step.nodes.iter();

@@ -2,7 +2,7 @@ use super::continuation::{End, Event, EventKind, PathPoint, Stride, Traced, trac
 use super::describe::describe;
 use super::equilibrium::Configuration;
 use super::failure::{Failure, Reason};
-use super::globalise::{RodFamily, stability};
+use super::globalise::{NEUTRAL, RodFamily, stability};
 use super::linear::{Buffers, Increment};
 use super::mesh::Mesh;
 use super::report::Report;
@@ -213,7 +213,7 @@ impl<'m, 'r, B: Elastic, const S: usize> Walker<'m, 'r, B, S> {
         let mut report = Report::default();
         // the state was converged: it can be evaluated
         if self.mesh.configure(&point.state, &mut configuration).is_ok() {
-            report.stability = stability(&self.mesh, &point.state, &configuration, self.buffers);
+            report.stability = stability(&self.mesh, &point.state, &configuration, self.buffers, NEUTRAL);
         }
         let solution = describe(&self.mesh, &point.state.strains, &configuration, report);
         let (load_factor, slope, arc_length) = (point.factor, point.slope, point.arc_length);

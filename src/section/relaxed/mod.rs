@@ -371,4 +371,8 @@ impl<S: Shape, M: Local> Geometry for Relaxed<S, M> {
             None => Ok(AreaMoments::of(&self.shape.place(&self.rule, s)?)),
         }
     }
+
+    fn weighted_third_moments(&self, s: f64) -> Result<[f64; 4]> {
+        Ok(AreaMoments::third(&self.shape.place(&self.shape.rule(3)?, s)?))
+    }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix6;
 
-use super::verdict::{is_conservative, softening};
+use super::verdict::softening;
 use crate::body::Elastic;
 use crate::lie::Strain;
 use crate::solve::equilibrium::Configuration;
@@ -13,11 +13,8 @@ use crate::solve::report::Iteration;
 use crate::solve::stability::{Verdict, chain};
 use crate::solve::unknowns::Unknowns;
 
-/// Iterations at the most.
-const ITERATIONS: usize = 300;
-
-/// How often μ may be raised in one of them.
-const RAISES: usize = 30;
+/// Models of the energy that are looked at, at the most: an iteration looks at one or more.
+const MODELS: usize = 400;
 
 /// μ where it is raised from nothing.
 const FIRST: f64 = 0.05;
@@ -40,8 +37,8 @@ const ASIDE: f64 = 0.05;
 /// From a state to a stable one near it: K → (1 + μ) K at the stages, with the wrenches of the nodes as unknowns of their own, and μ raised until the
 /// model has no unstable mode and turns no node by more than a radian.
 ///
-/// A stationary point of an energy with the second variation kept positive is left downhill; `None` where none is reached, or where there
-/// is no energy.
+/// A stationary point of an energy with the second variation kept positive is left downhill. Loads without a potential have the symmetric part of
+/// theirs, which still keeps steps short. `None` where no state is reached.
 pub(super) fn descend<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     from: &Unknowns<S>,
@@ -51,15 +48,13 @@ pub(super) fn descend<B: Elastic, const S: usize>(
     let mut unknowns = from.clone();
     let mut state = buffers.configuration();
     mesh.configure(&unknowns, &mut state).ok()?;
-    if !is_conservative(mesh, &state) {
-        return None;
-    }
     unknowns.wrenches = state.node_wrench[..mesh.elements()].to_vec();
     mesh.configure(&unknowns, &mut state).ok()?;
     let mut trial = buffers.configuration();
     let mut mu = 0.0;
-    for _ in 0..ITERATIONS {
-        let step = convex_step(mesh, &unknowns, &state, buffers, &mut mu)?;
+    let mut models = 0;
+    while models < MODELS {
+        let step = convex_step(mesh, &unknowns, &state, buffers, &mut mu, &mut models)?;
         let mut fraction = if step.rotation > CAP { CAP / step.rotation } else { 1.0 };
         loop {
             buffers.move_by(&unknowns, fraction);
@@ -95,17 +90,19 @@ fn convex_step<B: Elastic, const S: usize>(
     state: &Configuration<S>,
     buffers: &mut Buffers<S>,
     mu: &mut f64,
+    models: &mut usize,
 ) -> Option<Step> {
     let scale = scale(mesh, state);
     let soft = softening(mesh, state).is_some();
     let mut model = state.clone();
-    for _ in 0..RAISES {
+    while *models < MODELS {
+        *models += 1;
         for (modelled, response) in model.response.iter_mut().flatten().zip(state.response.iter().flatten()) {
             let stiff = if soft { convex(&response.tangent) } else { response.tangent };
             modelled.tangent = response.tangent + stiff * *mu;
         }
         let done = buffers.condense(mesh, unknowns, &model).is_ok() && {
-            let verdict = chain(mesh, &model, &buffers.condensed, &scale).map(|chain| chain.verdict());
+            let verdict = chain(mesh, &model, &buffers.condensed, &scale).map(|chain| chain.verdict(1e-11));
             matches!(verdict, Some(Verdict::Index { unstable: 0, .. }))
         };
         if done
@@ -143,7 +140,7 @@ pub(super) fn turned_aside<B: Elastic, const S: usize>(
             let bend = ASIDE / length;
             let aside =
                 [bend * (5.3 * phase + 0.3).cos(), bend * (7.2 * phase + 0.5).sin(), 0.0, 0.0, 0.0, 0.0];
-            *strain = *strain + Strain::from_array(aside);
+            *strain += Strain::from_array(aside);
         }
     }
     unknowns

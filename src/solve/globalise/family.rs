@@ -16,6 +16,9 @@ use crate::solve::unknowns::Unknowns;
 
 use super::verdict::stability;
 
+/// On a path an index changes where an eigenvalue changes its sign.
+const NEUTRAL_PATH: f64 = 1e-11;
+
 /// By how much the factor is changed to find the step per factor: residuals are linear in it, and a tangent that moves with it is off by this at most.
 const PROBE: f64 = 1e-6;
 
@@ -123,7 +126,7 @@ impl<B: Elastic, const S: usize> Family for RodFamily<'_, '_, B, S> {
         self.mesh.load_factor = factor;
         let mut configuration = self.buffers.configuration();
         let found = match self.mesh.configure(state, &mut configuration) {
-            Ok(()) => stability(self.mesh, state, &configuration, self.buffers),
+            Ok(()) => stability(self.mesh, state, &configuration, self.buffers, NEUTRAL_PATH),
             Err(_) => Stability::Unknown,
         };
         self.buffers.recycle(configuration);

@@ -11,4 +11,4 @@ mod verdict;
 
 pub(super) use climb::unstable;
 pub(super) use family::RodFamily;
-pub(super) use verdict::stability;
+pub(super) use verdict::{NEUTRAL, stability};

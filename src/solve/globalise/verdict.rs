@@ -7,6 +7,13 @@ use crate::solve::report::Stability;
 use crate::solve::stability::{Verdict, chain};
 use crate::solve::unknowns::Unknowns;
 
+/// What is neutral in a state that is solved to the accuracy asked for, and in one that is but a start for finer meshes.
+pub(crate) const NEUTRAL: f64 = 1e-6;
+pub(super) const NEUTRAL_START: f64 = 1e-3;
+
+/// With more elements than this a mesh is but safe, not resolved.
+const MANY_ELEMENTS: usize = 1500;
+
 /// The most elements on which a verdict is sought.
 const MAX_ELEMENTS: usize = 20_000;
 
@@ -14,7 +21,10 @@ const MAX_ELEMENTS: usize = 20_000;
 const CUTS: usize = 3;
 
 /// An element is resolved if its loads are below this part of what it bears with both ends held.
-const RESOLVED: f64 = 0.5;
+const RESOLVED: f64 = 0.03;
+
+/// The same where it is enough that no element is unstable by itself.
+pub(super) const SAFE: f64 = 0.4;
 
 /// Whether every load there is has a potential.
 pub(super) fn is_conservative<B: Elastic, const S: usize>(
@@ -34,12 +44,26 @@ pub(super) fn softening<B: Elastic, const S: usize>(
     })
 }
 
-/// How stable a converged state is.
+/// Whether a cantilever that was just solved is surely stable, by the elements as they were condensed in the last step.
+pub(crate) fn is_surely_stable<B: Elastic, const S: usize>(
+    mesh: &Mesh<'_, B, S>,
+    state: &Configuration<S>,
+    buffers: &Buffers<S>,
+) -> bool {
+    mesh.is_cantilever()
+        && is_conservative(mesh, state)
+        && softening(mesh, state).is_none()
+        && needed_parts(mesh, state, SAFE).iter().all(|&count| count == 1)
+        && chain(mesh, state, &buffers.condensed, &scale(mesh, state)).is_some_and(|c| c.is_surely_stable())
+}
+
+/// How stable a state is. What of the last pivot is below `neutral`, in units of the rod's bending stiffness, counts as nothing.
 pub(crate) fn stability<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     unknowns: &Unknowns<S>,
     state: &Configuration<S>,
     buffers: &mut Buffers<S>,
+    neutral: f64,
 ) -> Stability {
     if !is_conservative(mesh, state) {
         return Stability::Unknown;
@@ -47,15 +71,18 @@ pub(crate) fn stability<B: Elastic, const S: usize>(
     if let Some(s) = softening(mesh, state) {
         return Stability::Softening { s };
     }
-    let parts = needed_parts(mesh, state);
+    let mut parts = needed_parts(mesh, state, RESOLVED);
+    if parts.iter().sum::<usize>() > MANY_ELEMENTS {
+        parts = needed_parts(mesh, state, SAFE);
+    }
     if parts.iter().all(|&count| count == 1) {
-        match index(mesh, unknowns, state, buffers) {
+        match index(mesh, unknowns, state, buffers, neutral) {
             Some(verdict) => return verdict,
             None if mesh.elements() > MAX_ELEMENTS => return Stability::Unknown,
             None => {}
         }
     }
-    refined(mesh, unknowns, parts, buffers).unwrap_or(Stability::Unknown)
+    refined(mesh, unknowns, parts, buffers, neutral).unwrap_or(Stability::Unknown)
 }
 
 /// The index where every element is resolved.
@@ -64,10 +91,11 @@ fn index<B: Elastic, const S: usize>(
     unknowns: &Unknowns<S>,
     state: &Configuration<S>,
     buffers: &mut Buffers<S>,
+    neutral: f64,
 ) -> Option<Stability> {
     let scale = scale(mesh, state);
     buffers.condense(mesh, unknowns, state).ok()?;
-    match chain(mesh, state, &buffers.condensed, &scale)?.verdict() {
+    match chain(mesh, state, &buffers.condensed, &scale)?.verdict(neutral) {
         Verdict::Index { unstable, neutral } => Some(Stability::Index { unstable, neutral }),
         Verdict::Unresolved { .. } => None,
     }
@@ -79,6 +107,7 @@ fn refined<B: Elastic, const S: usize>(
     unknowns: &Unknowns<S>,
     mut parts: Vec<usize>,
     buffers: &mut Buffers<S>,
+    neutral: f64,
 ) -> Option<Stability> {
     let mut state = buffers.configuration();
     let mut found = None;
@@ -91,7 +120,7 @@ fn refined<B: Elastic, const S: usize>(
         if fine.configure(&prolonged, &mut state).is_err() {
             break;
         }
-        found = index(&fine, &prolonged, &state, buffers);
+        found = index(&fine, &prolonged, &state, buffers, neutral);
         if found.is_some() {
             break;
         }
@@ -108,6 +137,7 @@ fn refined<B: Elastic, const S: usize>(
 pub(super) fn needed_parts<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     state: &Configuration<S>,
+    resolved: f64,
 ) -> Vec<usize> {
     let parts = |i: usize| {
         let x = mesh.h(i) / std::f64::consts::TAU;
@@ -120,8 +150,8 @@ pub(super) fn needed_parts<B: Elastic, const S: usize>(
             let along = wrench.force.z;
             let compression = 0.5 * (n - along) + (n * n / shear - along.abs()).max(0.0);
             let (moment, force) = (wrench.moment.norm() * x / bending, compression * x * x / bending);
-            // the smallest p with moment/p + force/p² ≤ ½
-            let p = (moment + (moment * moment + 4.0 * RESOLVED * force).sqrt()) / (2.0 * RESOLVED);
+            // the smallest p with moment/p + force/p² ≤ the part
+            let p = (moment + (moment * moment + 4.0 * resolved * force).sqrt()) / (2.0 * resolved);
             most = most.max(p);
         }
         if most.is_finite() { most.ceil().min(1e6) as usize } else { 1 }

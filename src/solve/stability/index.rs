@@ -15,9 +15,6 @@ pub(crate) enum Verdict {
     Unresolved { element: usize },
 }
 
-/// An eigenvalue of the last pivot smaller than this, in units of the rod's bending stiffness, tells nothing.
-const NEUTRAL: f64 = 1e-11;
-
 /// A support at the node behind an element, and the corner there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stop {
@@ -51,10 +48,13 @@ pub(super) struct Swept {
 }
 
 impl Chain {
-    /// The index under the essential conditions of both ends.
-    pub(crate) fn verdict(&self) -> Verdict {
+    /// The index under the essential conditions of both ends; an eigenvalue of the last pivot below `neutral` is nothing.
+    pub(crate) fn verdict(&self, neutral: f64) -> Verdict {
+        if self.is_surely_stable() {
+            return Verdict::Index { unstable: 0, neutral: 0 };
+        }
         match self.sweep() {
-            Ok(swept) => match swept.last.count(NEUTRAL) {
+            Ok(swept) => match swept.last.count(neutral) {
                 Some((last, neutral)) => Verdict::Index { unstable: swept.before + last, neutral },
                 None => Verdict::Unresolved { element: self.links.len() - 1 },
             },

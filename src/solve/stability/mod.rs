@@ -25,6 +25,7 @@ mod link;
 mod mode;
 mod pivot;
 mod plane;
+mod quick;
 
 pub(crate) use assess::chain;
 pub(crate) use index::{Chain, Verdict};

@@ -75,7 +75,7 @@ impl Straight {
     }
 
     fn index<const S: usize>(&self, ends: Ends) -> usize {
-        match self.chain::<S>(ends).verdict() {
+        match self.chain::<S>(ends).verdict(1e-11) {
             Verdict::Index { unstable, .. } => unstable,
             verdict => panic!("{verdict:?}"),
         }
@@ -257,7 +257,7 @@ impl Tension {
             elastic + load.unwrap()
         };
         let won = (energy(&strains) - energy(&tilted)) / (TILT * TILT);
-        match chain_of::<_, 3>(&rod, elements, straight, Wrench::zero()).verdict() {
+        match chain_of::<_, 3>(&rod, elements, straight, Wrench::zero()).verdict(1e-11) {
             Verdict::Index { unstable, .. } => (unstable, won),
             verdict => panic!("{verdict:?}"),
         }
@@ -291,7 +291,7 @@ fn supports_in_the_middle_raise_the_load_to_that_of_a_bay() {
         let rod = Rod::between(body, pinned, roller).with_tip_load(push).with_support(0.5, roller).unwrap();
         let wrench = Wrench::new(vector![0.0, 0.0, 0.0], vector![0.0, 0.0, -force]);
         let strain = Strain::from_array([0.0, 0.0, 0.0, 0.0, 0.0, -force / 1e9]);
-        let verdict = chain_of::<_, 3>(&rod, 16, strain, wrench).verdict();
+        let verdict = chain_of::<_, 3>(&rod, 16, strain, wrench).verdict(1e-11);
         assert!(
             matches!(verdict, Verdict::Index { unstable, .. } if unstable == expected),
             "{factor}: {verdict:?}"
