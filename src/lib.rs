@@ -143,9 +143,9 @@
 //! | [`quadrature`] | rules on lines and plane shapes, exact to a stated degree, with positive weights; compression |
 //! | [`material`] | energy densities, the laws at hand, and their derivatives at a point and over a section |
 //! | [`section`] | shapes that may vary along s, composites, resultants; Δξ to U, Ψ, ∂Ψ/∂Δξ and Ψ′; [`check`](section::check) |
-//! | [`body`] | length, section, reference strain, and mass where a scene asks for it |
-//! | [`load`] | gravity through the centre of mass, and tip wrenches, with exact derivatives |
-//! | [`rod`] | the scene, and the collocation element in the strains |
+//! | [`body`] | length, section, reference strain, [constraint](body::Constraint), and mass where a scene asks for it |
+//! | [`load`] | gravity, buoyancy, dead and follower loads, foundations, closures of the pose, with exact derivatives |
+//! | [`rod`] | the scene, the collocation element in the strains, and the [strong form](Rod::strain_rate) |
 //! | [`solve`] | Newton's method, the static solver with an accuracy or on a mesh, and its reports |
 //!
 //! # Ladder of models
@@ -163,13 +163,15 @@
 //! | reference | straight; a constant ξ*; a function of s ([`ReferenceShape`](body::ReferenceShape)) |
 //! | quadrature | exact for a law with a stated degree; for another, of degree [`Section::DEFAULT_DEGREE`](section::Section::DEFAULT_DEGREE) or what [`with_degree`](section::Section::with_degree) or [`with_tolerance`](section::Section::with_tolerance) asks for |
 //! | element | [`Order`](solve::Order) 2, 4 or 6: one, two or three Gauss stages |
+//! | actuators | none; [`Tendon`](section::Tendon)s by tension or [by length](Statics::solve_tendon_length); [`PressureChamber`](section::PressureChamber)s; your own [`Actuator`](section::Actuator) |
+//! | strains | all six; any subset, exactly ([`Constraint`](body::Constraint)): inextensible, unshearable, Kirchhoff, twist-free, planar |
 //! | mass | none; [`with_density`](Body::with_density); [`with_mass_per_length`](Body::with_mass_per_length) |
 //!
 //! # What is not there yet
 //!
 //! * Dynamics and damping. The solver is static.
 //! * Sections that contract, warp or ovalise. A rigid section is too stiff for rubber unless the constants are chosen for it (correction 3).
-//! * Ends other than clamped and free; follower loads, tendons, pressure; rods joined to rods.
+//! * Ends other than clamped and free; rods joined to rods.
 //! * A stability check: the solver finds an equilibrium, and does not say whether it is a stable one. It applies the load in one step.
 
 /// The dual numbers that sizes, angles and references along s are functions of: `use hyperrod::num_dual::{Dual64, DualNum};`
