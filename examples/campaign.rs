@@ -5,6 +5,7 @@
 //! ```
 //!
 //! writes a row for every case to `target/hyperrod/campaign.csv`. The same seed gives the same cases; `--only N` solves one of them and tells more.
+#![allow(clippy::print_stdout)]
 
 use std::fmt::Write as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};

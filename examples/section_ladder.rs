@@ -48,7 +48,7 @@ impl Tally {
         let met = error <= tolerance;
         self.count += 1;
         self.good += usize::from(met);
-        println!("{what:<46}{rung:>24}{error:>11.1e}{tolerance:>9.0e}{}", if met { "" } else { "  MISSED" });
+        println!("{what:<46}{rung:>42}{error:>11.1e}{tolerance:>9.0e}{}", if met { "" } else { "  MISSED" });
     }
 }
 
@@ -76,7 +76,7 @@ fn main() -> Outcome {
     let quick = flag("--quick");
     let output = Output::of("section_ladder")?;
     let mut tally = Tally::default();
-    println!("{:<46}{:>24}{:>11}{:>9}", "what", "rung (p, r)", "error", "allowed");
+    println!("{:<46}{:>42}{:>11}{:>9}", "what", "rung (p, r)", "error", "allowed");
     rest::run(&mut tally)?;
     finite::run(&mut tally)?;
     reference::run(&mut tally, &output, quick)?;

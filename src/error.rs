@@ -71,6 +71,14 @@ pub enum Error {
         /// Arc length, m.
         s: f64,
     },
+    /// Something a scene declares that the solver asked does not know.
+    #[error("{solver} does not know {what}")]
+    NotModelled {
+        /// What was declared.
+        what: &'static str,
+        /// Which solver was asked.
+        solver: &'static str,
+    },
     /// A linear system without a unique solution, for instance a tangent that lost its stiffness.
     #[error("{matrix} is singular at s = {s} m")]
     Singular {

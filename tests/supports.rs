@@ -210,7 +210,7 @@ fn point_loads_and_supports_keep_the_order() {
             .with_tip_load(DeadWrench::force(vector![0.5, 0.4, 0.1]).unwrap())
             .with_point_load(0.3, DeadWrench::force(vector![-2.0, 1.0, 0.5]).unwrap())
             .unwrap()
-            .with_support(0.7, held.releasing(&[Freedom::RotationX, Freedom::RotationY, Freedom::Z]))
+            .with_support(0.7, held.releasing([Freedom::RotationX, Freedom::RotationY, Freedom::Z]))
             .unwrap()
     };
     let solve = |elements: usize, order: Order| {
@@ -241,8 +241,8 @@ fn a_rod_that_is_free_to_move_is_refused_by_name() {
     let cases = [
         (Support::free(), Support::free(), ""),
         // turns about itself
-        (Support::pinned(frame), Support::pinned(far).releasing(&[Freedom::Z]), "rotation about"),
-        (Support::clamped(frame).releasing(&[Freedom::X]), Support::free(), "translation along"),
+        (Support::pinned(frame), Support::pinned(far).releasing([Freedom::Z]), "rotation about"),
+        (Support::clamped(frame).releasing([Freedom::X]), Support::free(), "translation along"),
     ];
     for (base, tip, expected) in cases {
         let failure = Statics::default().solve(&Rod::between(straight(), base, tip)).unwrap_err();
@@ -250,10 +250,10 @@ fn a_rod_that_is_free_to_move_is_refused_by_name() {
         assert!(motion.contains(expected), "{motion}");
     }
     // a dead load does not hold a rod that slides, whatever its size
-    let rod = Rod::between(straight(), Support::clamped(frame).releasing(&[Freedom::X]), Support::free());
+    let rod = Rod::between(straight(), Support::clamped(frame).releasing([Freedom::X]), Support::free());
     assert!(Statics::default().solve(&rod.with_tip_load(pull())).is_err());
     // but a hanging weight holds a pendulum upright, up to its twist
-    let base = Support::clamped(frame).releasing(&[Freedom::RotationX, Freedom::RotationY]);
+    let base = Support::clamped(frame).releasing([Freedom::RotationX, Freedom::RotationY]);
     let weight = DeadWrench::force(vector![0.3, 0.0, 0.4]).unwrap();
     let swing =
         Statics::default().solve(&Rod::between(straight(), base, Support::free()).with_tip_load(weight));

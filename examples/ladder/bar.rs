@@ -84,7 +84,9 @@ pub fn cantilever(tally: &mut Tally, output: &Output) -> Outcome {
     println!("  a rigid section is off by {:.1} %", (stiff / FINITE_ELEMENTS - 1.0) * 100.0);
     extremes(&relaxed, &Relaxed::new(Rectangle::new(SIDE, SIDE), rubber)?.with_warping(Warping::SHEAR)?)?;
     let outline = |solution: &StaticSolution| {
-        let stations: Vec<_> = solution.nodes().iter().map(|node| (node.pose, 0.5 * SIDE)).collect();
+        let mut nodes: Vec<_> = solution.nodes().iter().chain(solution.stages()).collect();
+        nodes.sort_by(|a, b| a.s.total_cmp(&b.s));
+        let stations: Vec<_> = nodes.iter().map(|node| (node.pose, 0.5 * SIDE)).collect();
         silhouette(&stations, Vector3::y(), [Vector3::z(), Vector3::y()], SIDE)
     };
     let end = [relaxed.tip().pose.position.z / SIDE, -FINITE_ELEMENTS];
@@ -93,7 +95,7 @@ pub fn cantilever(tally: &mut Tally, output: &Output) -> Outcome {
         .area(outline(&rigid), GREY)
         .area(outline(&relaxed), BLUE)
         .disc(end, 0.25, ORANGE)
-        .text("rigid section", [13.0, -5.4])
+        .text("rigid section", [15.2, -4.6])
         .text("relaxed; dot: 3-D finite elements", [8.5, -9.0])
         .save(&output.path("cantilever.svg"))?;
     curves(output)

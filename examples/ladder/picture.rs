@@ -1,6 +1,5 @@
 //! A deformed section, coloured by its stress.
 
-use hyperrod::material::Local;
 use hyperrod::section::Deformed;
 use plotters::style::RGBColor;
 use std::path::Path;
@@ -9,10 +8,10 @@ use super::Outcome;
 use super::figure::Drawing;
 
 /// Cells of a grid in two parameters, mapped to the section by `place`, drawn where they went.
-pub fn draw<M: Local>(
+pub fn draw(
     path: &Path,
     title: &str,
-    deformed: &Deformed<'_, M>,
+    deformed: &Deformed<'_>,
     cells: [usize; 2],
     place: impl Fn(f64, f64) -> [f64; 2],
 ) -> Outcome {

@@ -3,7 +3,7 @@
 use hyperrod::section::{Circle, Ellipse, Rectangle, Shape, Warping};
 use std::f64::consts::PI;
 
-use super::{Outcome, Tally, respond, solid, warping};
+use super::{Outcome, Tally, relative, respond, solid, warping};
 
 /// μ = 1, ν = 0.3.
 pub const LAMBDA: f64 = 1.5;
@@ -39,7 +39,31 @@ pub fn run(tally: &mut Tally) -> Outcome {
         }
     }
     torsion(tally)?;
-    shear(tally)
+    shear(tally)?;
+    tangent(tally)
+}
+
+/// ∂Ψ/∂Δξ against central differences of Ψ: step 1e-5, of which 1e-10 is left by truncation and 1e-11 by rounding.
+fn tangent(tally: &mut Tally) -> Outcome {
+    const STEP: f64 = 1e-5;
+    let strain = [0.2, -0.1, 0.4, 0.1, 0.05, 0.15];
+    for name in ["square", "ellipse"] {
+        let section = solid(shape(name), 9.0, Warping::SHEAR)?;
+        let k = respond(&section, strain)?.tangent;
+        let mut differences = Vec::new();
+        for i in 0..6 {
+            let psi = |sign: f64| -> Outcome<_> {
+                let moved = std::array::from_fn(|j| strain[j] + if i == j { sign * STEP } else { 0.0 });
+                Ok(respond(&section, moved)?.wrench.to_vector())
+            };
+            differences.extend(((psi(1.0)? - psi(-1.0)?) / (2.0 * STEP)).iter().copied());
+        }
+        let rung = Warping::SHEAR.to_string();
+        tally.error(&format!("{name}: asymmetry of the tangent"), &rung, (k - k.transpose()).amax(), 0.0);
+        let what = format!("{name}: tangent against differences");
+        tally.error(&what, &rung, relative(k.as_slice(), &differences), 1e-8);
+    }
+    Ok(())
 }
 
 /// Saint-Venant's constants, in closed form and by his series.

@@ -5,7 +5,7 @@ use hyperrod::material::{NeoHookean, Request, Station};
 use hyperrod::section::{CrossSection, Section, Warping};
 use std::time::Instant;
 
-use super::figure::{Chart, Output};
+use super::figure::{Chart, Output, stack};
 use super::reference::{Case, cases};
 use super::rest::shape;
 use super::{Outcome, relative, solid};
@@ -34,12 +34,6 @@ pub fn run(output: &Output, quick: bool) -> Outcome {
         .into_iter()
         .filter(|c| c.law == "nh045" && drawn.contains(&(c.section.as_str(), c.strain.as_str())))
         .collect();
-    let mut chart = Chart::new(
-        "One curve a rung: bent circle, sheared rectangle, twisted square",
-        "time / rigid",
-        "error",
-    )
-    .log(true, true);
     for rung in Warping::LADDER {
         let (mut cold_ratio, mut warm_ratio, mut modes, mut points) = (0.0, 0.0, 0, 0);
         let mut errors = Vec::new();
@@ -57,18 +51,52 @@ pub fn run(output: &Output, quick: bool) -> Outcome {
             })?;
             let psi = section.wrench(&at, &strain)?.to_array();
             let error = relative(&psi, &case.psi);
-            errors.push([warm / base, error]);
+            errors.push(error);
             cold_ratio += cold / base / cases.len() as f64;
             warm_ratio += warm / base / cases.len() as f64;
             (modes, points) = (section.mode_count(), section.point_count());
         }
-        let listed: Vec<String> = errors.iter().map(|e| format!("{:.0e}", e[1])).collect();
+        let listed: Vec<String> = errors.iter().map(|e| format!("{e:.0e}")).collect();
         println!(
             "{:<20}{modes:>7}{points:>8}{cold_ratio:>8.0}{warm_ratio:>9.0}   {}",
             rung.to_string(),
             listed.join("  ")
         );
-        chart = chart.dots(&format!("({}, {})", rung.in_plane, rung.axial), errors);
     }
-    chart.save(&output.path("work_precision.svg"))
+    charts(&cases, repeats, output)
+}
+
+/// Time against error: one curve a rung, along which the quadrature grows.
+fn charts(cases: &[Case], repeats: usize, output: &Output) -> Outcome {
+    let at = Station::straight(0.0);
+    let mut charts = Vec::new();
+    for case in cases {
+        let title =
+            format!("{} {}, nu = 0.45: quadrature of degree 2d - 2 to 2d + 6", case.section, case.strain);
+        let mut chart = Chart::new(&title, "time / rigid section", "error of the wrench").log(true, true);
+        let strain = Strain::from_array(case.dxi);
+        let rigid = Section::new(shape(&case.section), NeoHookean::new(1.0, case.lambda)?)?;
+        let base = median(20 * repeats, || Ok(rigid.respond(&at, &strain, Request::Tangent).map(|_| ())?))?;
+        for rung in [Warping::ANTICLASTIC, Warping::BENDING, Warping::SHEAR, Warping::TORSION, Warping::LARGE]
+        {
+            let degree = rung.in_plane.max(rung.axial);
+            let mut points = Vec::new();
+            for quadrature in [2 * degree - 2, 2 * degree, 2 * degree + 2, 2 * degree + 6] {
+                let section =
+                    solid(shape(&case.section), case.lambda, rung)?.with_degree(quadrature.max(2))?;
+                let Ok((_, near)) = section.respond_from(None, &at, &(strain * 0.98), Request::Tangent)
+                else {
+                    continue; // too poor a quadrature may lose its stability
+                };
+                let (response, _) = section.respond_from(Some(&near), &at, &strain, Request::Tangent)?;
+                let time = median(repeats, || {
+                    Ok(section.respond_from(Some(&near), &at, &strain, Request::Tangent).map(|_| ())?)
+                })?;
+                points.push([time / base, relative(&response.wrench.to_array(), &case.psi)]);
+            }
+            chart = chart.dots(&format!("({}, {})", rung.in_plane, rung.axial), points);
+        }
+        charts.push(chart);
+    }
+    stack(&output.path("work_precision.svg"), &charts)
 }

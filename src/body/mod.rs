@@ -9,11 +9,13 @@ mod area;
 mod constraint;
 mod mass;
 mod reference;
+mod viscosity;
 
 pub use area::HasArea;
 pub use constraint::Constraint;
 pub use mass::{Density, HasMass, LineDensity, LineMass, MassModel, Massless};
 pub use reference::ReferenceShape;
+pub use viscosity::{Dissipative, IsotropicViscosity, ViscosityMatrix, ViscosityModel, Viscous};
 
 use num_dual::Dual64;
 

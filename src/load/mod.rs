@@ -56,6 +56,14 @@ pub struct LoadWrench {
 }
 
 /// A load per length of the reference on bodies of type `B`.
+///
+/// A load of your own says in its `impl` what it needs of the body: `impl<B: HasMass> Load<B> for Mine`, with one of the capabilities of
+/// [`body`](crate::body) or a trait of your own that you implement for your bodies.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a load per length on `{B}`",
+    label = "a load per length is needed here",
+    note = "loads are in `hyperrod::load`; one on the tip alone goes to `with_tip_load`; one of your own implements `Load`, or is a closure in `load::distributed`"
+)]
 pub trait Load<B: ?Sized>: Send + Sync {
     /// The load at s on a section at `pose`: N (moment per length) and N/m.
     ///
@@ -65,6 +73,11 @@ pub trait Load<B: ?Sized>: Send + Sync {
 }
 
 /// A wrench on the tip of the rod.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a load on a point of a rod",
+    label = "a load on a point is needed here",
+    note = "loads are in `hyperrod::load`; one per length goes to `with_load`; one of your own implements `TipLoad`, or is a closure in `load::at_tip`"
+)]
 pub trait TipLoad: Send + Sync {
     /// The load on a tip at `pose`: N m and N.
     ///
@@ -72,3 +85,8 @@ pub trait TipLoad: Send + Sync {
     /// Where the load is not defined.
     fn at(&self, pose: &Pose) -> Result<LoadWrench>;
 }
+
+/// The example of the decision, compiled as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/decisions/010-what-a-load-needs-of-a-body.md")]
+struct Decision;

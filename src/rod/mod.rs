@@ -5,13 +5,16 @@
 //!
 //! What lives here states equilibrium and its exact linearisation on one element; it does not solve anything.
 
+pub(crate) mod adjoint;
 pub(crate) mod collocation;
 pub(crate) mod condense;
 pub(crate) mod element;
 pub(crate) mod joint;
+mod load_terms;
 pub(crate) mod magnus;
 mod planar;
 mod scene;
+mod stage_system;
 mod stages;
 mod strong_form;
 pub(crate) mod support;

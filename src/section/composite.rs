@@ -97,6 +97,15 @@ impl Geometry for Composite {
         }
         Ok(total)
     }
+
+    fn weighted_third_moments(&self, s: f64) -> Result<[f64; 4]> {
+        let mut total = [0.0; 4];
+        for (part, factor) in &self.parts {
+            let third = part.weighted_third_moments(s)?;
+            total = std::array::from_fn(|i| total[i] + factor * third[i]);
+        }
+        Ok(total)
+    }
 }
 
 impl std::fmt::Debug for Composite {

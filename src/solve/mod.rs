@@ -8,6 +8,7 @@ mod cascade;
 mod chain;
 mod continuation;
 mod describe;
+pub mod dynamics;
 mod equilibrium;
 mod estimate;
 mod failure;
@@ -23,6 +24,7 @@ mod solution;
 mod stability;
 mod statics;
 mod sweep;
+mod tendon_length;
 mod unknowns;
 mod workspace;
 
@@ -31,4 +33,5 @@ pub use path::{Buckling, EquilibriumPath, PathEnd, PathEvent, PathEventKind, Pat
 pub use report::{ErrorEstimate, Iteration, Report, Rung, Stability};
 pub use solution::{Node, StaticSolution};
 pub use statics::{Order, Statics};
+pub use tendon_length::TendonSolution;
 pub use workspace::Workspace;

@@ -2,6 +2,7 @@ use std::time::Duration;
 
 /// One Newton iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Iteration {
     /// Elements of the mesh it was taken on.
     pub elements: usize,
@@ -15,6 +16,7 @@ pub struct Iteration {
 
 /// How far the answer may be from the exact solution of the model, estimated from two meshes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ErrorEstimate {
     /// Of the positions of the nodes, m.
     pub position: f64,
@@ -41,6 +43,7 @@ impl ErrorEstimate {
 
 /// What a solve had to do to find its answer, in the order in which it is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Rung {
     /// Newton's method from rest, with steps that turn no node by more than a radian.
     Newton,
@@ -54,6 +57,7 @@ pub enum Rung {
 
 /// Whether an equilibrium would stay.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Stability {
     /// The second variation of the energy under the conditions of the supports.
     Index {
@@ -98,6 +102,7 @@ impl std::fmt::Display for Stability {
 
 /// How a solve went.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Report {
     /// Every Newton iteration, coarse mesh first.
     pub iterations: Vec<Iteration>,

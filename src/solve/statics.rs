@@ -68,14 +68,7 @@ pub struct Statics {
 impl Default for Statics {
     /// 16 elements of order 4, tolerance 1e-9, at most 50 iterations.
     fn default() -> Self {
-        Self {
-            accuracy: None,
-            elements: 16,
-            order: Order::Four,
-            tolerance: 1e-9,
-            max_iterations: 50,
-            accept_unstable: false,
-        }
+        Self::DEFAULT
     }
 }
 
@@ -83,6 +76,16 @@ impl Default for Statics {
 const MAX_ELEMENTS: usize = 1_000_000;
 
 impl Statics {
+    /// The [default](Self::default) options, for constants.
+    pub const DEFAULT: Self = Self {
+        accuracy: None,
+        elements: 16,
+        order: Order::Four,
+        tolerance: 1e-9,
+        max_iterations: 50,
+        accept_unstable: false,
+    };
+
     /// To an accuracy, on a mesh of the solver's choice, with elements of order 6: they are the fastest at every accuracy from 1e-4 on.
     ///
     /// The error is that of the discretisation: a section whose quadrature is not exact adds its own (see

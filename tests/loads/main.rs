@@ -6,5 +6,7 @@ mod reference;
 mod shooting;
 
 mod derivatives;
+mod messages;
 mod solved;
+mod strong_form;
 mod tendons;

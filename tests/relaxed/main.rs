@@ -11,25 +11,25 @@ use hyperrod::Strain;
 use hyperrod::material::{NeoHookean, Request, Response, Station};
 use hyperrod::section::{CrossSection, Relaxed, Shape, Warping};
 
-pub type Solid = Relaxed<Box<dyn Shape>, NeoHookean>;
+type Solid = Relaxed<Box<dyn Shape>, NeoHookean>;
 
 /// A relaxed section of the neo-Hookean law of the references, μ = 1.
-pub fn solid(shape: impl Shape + 'static, lambda: f64, (in_plane, axial): (usize, usize)) -> Solid {
+fn solid(shape: impl Shape + 'static, lambda: f64, (in_plane, axial): (usize, usize)) -> Solid {
     let shape: Box<dyn Shape> = Box::new(shape);
     let law = NeoHookean::new(1.0, lambda).unwrap();
     Relaxed::new(shape, law).unwrap().with_warping(Warping { in_plane, axial }).unwrap()
 }
 
-pub fn at_rest() -> Station {
+fn at_rest() -> Station {
     Station::straight(0.0)
 }
 
-pub fn respond(section: &dyn CrossSection, strain: [f64; 6]) -> Response {
+fn respond(section: &dyn CrossSection, strain: [f64; 6]) -> Response {
     section.respond(&at_rest(), &Strain::from_array(strain), Request::Tangent).unwrap()
 }
 
 /// The largest difference, relative to the largest entry of the second.
-pub fn relative(got: &[f64], exact: &[f64]) -> f64 {
+fn relative(got: &[f64], exact: &[f64]) -> f64 {
     let scale = exact.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     got.iter().zip(exact).fold(0.0_f64, |worst, (a, b)| worst.max((a - b).abs())) / scale
 }

@@ -3,9 +3,9 @@
 use nalgebra::Matrix6;
 
 use super::magnus::Variations;
-use super::{Complex, complex, turned};
+use super::{Complex, PLACES, change_of, complex, turned};
 use crate::rod::collocation::Collocation;
-use crate::rod::condense::Condensed;
+use crate::rod::condense::{Condensed, ONE};
 use crate::rod::element::ElementState;
 
 /// Columns: δm_y, δn_z, δn_x, 1.
@@ -13,9 +13,6 @@ const COLUMNS: usize = 4;
 type Row = [f64; COLUMNS];
 /// z and x of a column each.
 type ComplexRow = [Complex; COLUMNS];
-
-/// Where the first three columns are in a wrench.
-const PLACES: [usize; 3] = [1, 5, 3];
 
 /// a real quadratic form on vectors of the plane: rows and columns (z, x).
 type Flexibility = [[f64; 2]; 2];
@@ -128,18 +125,11 @@ impl<const S: usize> Condensed<S> {
                 v[c] += map.lower * angular[l][c] + map.diagonal * linear[l][c];
             }
         }
+        self.start_in_plane(state);
         let t = &mut self.transfer;
-        t.zeta_from_zeta = state.kinematics.end.adjoint_inverse().to_matrix();
-        t.wrench_from_wrench = state.kinematics.end.adjoint().to_matrix().transpose();
-        t.zeta_from_wrench.fill(0.0);
-        t.wrench_from_zeta.fill(0.0);
-        t.zeta.fill(0.0);
-        let (m, n) = (&state.wrench_at_end.moment, &state.wrench_at_end.force);
         for c in 0..COLUMNS {
-            let (w, [x, z]) = (w[c], [v[c].im, v[c].re]);
-            // m × (0, w, 0) + n × (x, 0, z), and n × (0, w, 0)
-            let wrench = [n.y * z - m.z * w, n.z * x - n.x * z, m.x * w - n.y * x, -n.z * w, 0.0, n.x * w];
-            let zeta = [0.0, w, 0.0, x, 0.0, z];
+            let zeta = [0.0, w[c], 0.0, v[c].im, 0.0, v[c].re];
+            let wrench = change_of(state.wrench_at_end, &zeta);
             if let Some(&place) = PLACES.get(c) {
                 for r in 0..6 {
                     t.zeta_from_wrench[(r, place)] = zeta[r];
@@ -150,10 +140,20 @@ impl<const S: usize> Condensed<S> {
                 t.wrench = wrench.into();
             }
         }
-        self.set_strains(|k, c| {
-            let place = PLACES.get(c).copied();
-            (place, [0.0, angular[k][c], 0.0, linear[k][c].im, 0.0, linear[k][c].re])
+        self.set_strains::<COLUMNS>(false, |k, c| {
+            let column = PLACES.get(c).copied().unwrap_or(ONE);
+            (column, [0.0, angular[k][c], 0.0, linear[k][c].im, 0.0, linear[k][c].re])
         });
+    }
+
+    /// ζ_{i+1} = Ad_e⁻¹ ζ_i and δΛ_{i+1} = Ad_eᵀ δΛ_i, to add to.
+    #[inline(always)]
+    pub(super) fn start_in_plane(&mut self, state: &ElementState<'_, S>) {
+        let t = &mut self.transfer;
+        t.zeta_from_zeta = state.kinematics.end.adjoint_inverse().to_matrix();
+        t.wrench_from_wrench = state.kinematics.end.adjoint().to_matrix().transpose();
+        t.zeta_from_wrench.fill(0.0);
+        t.wrench_from_zeta.fill(0.0);
     }
 }
 

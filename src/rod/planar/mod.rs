@@ -4,14 +4,16 @@
 //! [(ω, ν), (w, v)] = (0, i(ω v − w ν)), and every map that occurs is (w, v) → (a w, b w + A v) with a real and b, A complex.
 
 mod condense;
+mod loaded;
 mod magnus;
 
+pub(super) use loaded::acts_in_plane;
 pub(super) use magnus::kinematics;
 
 use std::ops::{Add, Mul, Sub};
 
 use crate::body::Constraint;
-use crate::lie::Twist;
+use crate::lie::{Twist, Wrench};
 
 pub(super) type Complex = nalgebra::Complex<f64>;
 
@@ -40,6 +42,16 @@ struct PlaneMap {
     angular: f64,
     lower: Complex,
     diagonal: Complex,
+}
+
+/// Where the components in the plane, (y; z, x), are among six.
+const PLACES: [usize; 3] = [1, 5, 3];
+
+/// L(Λ) ζ for a displacement in the plane and a wrench that need not lie in it: m × w + n × v, n × w.
+#[inline(always)]
+fn change_of(wrench: &Wrench, zeta: &[f64; 6]) -> [f64; 6] {
+    let (m, n, [_, w, _, x, _, z]) = (&wrench.moment, &wrench.force, *zeta);
+    [n.y * z - m.z * w, n.z * x - n.x * z, m.x * w - n.y * x, -n.z * w, 0.0, n.x * w]
 }
 
 /// Whether a rod with this constraint is in its plane when its strain twists are these.

@@ -129,6 +129,10 @@ impl<C: Geometry> Geometry for Actuated<C> {
     fn weighted_moments(&self, s: f64) -> Result<AreaMoments> {
         self.section.weighted_moments(s)
     }
+
+    fn weighted_third_moments(&self, s: f64) -> Result<[f64; 4]> {
+        self.section.weighted_third_moments(s)
+    }
 }
 
 impl<C: std::fmt::Debug> std::fmt::Debug for Actuated<C> {

@@ -63,6 +63,14 @@ impl<R: Routing> Tendon<R> {
         Ok(Self { end: Some(s), ..self })
     }
 
+    /// The same under another tension, N.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_tension(self, tension: f64) -> Result<Self> {
+        Ok(Self { end: self.end, ..Self::new(self.routing, tension)? })
+    }
+
     /// Tension T, N.
     pub fn tension(&self) -> f64 {
         self.tension

@@ -10,8 +10,9 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, SMatrix, Vector6};
 
 use super::modes::Modes;
+use crate::error::{Error, Result};
 use crate::lie::Strain;
-use crate::material::{GradientBatch, GradientState, Local, Request, Station, packed};
+use crate::material::{GradientBatch, GradientLaw, GradientState, Request, Station, packed};
 
 /// The reference at the points: γ*₁, γ*₂ and 1/j, and the volume w j per ds of each.
 pub(super) struct Frame {
@@ -24,7 +25,9 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    pub(super) fn new(modes: &Modes, at: &Station, strain: &Strain) -> Self {
+    /// # Errors
+    /// Where the section reaches the centre of curvature of the reference.
+    pub(super) fn new(modes: &Modes, at: &Station, strain: &Strain) -> Result<Self> {
         let points = &modes.points;
         let xi = at.reference.twist.to_array();
         let strain = strain.to_array();
@@ -37,13 +40,19 @@ impl Frame {
             strain,
         };
         for q in 0..n {
-            let [a, b, j] = column(&xi, points.x[q], points.y[q]);
+            let (x, y) = (points.x[q], points.y[q]);
+            let [a, b, j] = column(&xi, x, y);
+            if !(j > 0.0) {
+                let requirement = "positive: the section reaches the centre of curvature of the reference";
+                let quantity = "volume of the reference";
+                return Err(Error::Inadmissible { quantity, value: j, requirement, s: at.s, x, y });
+            }
             frame.shear[0][q] = a;
             frame.shear[1][q] = b;
             frame.inverse[q] = 1.0 / j;
             frame.volume[q] *= j;
         }
-        frame
+        Ok(frame)
     }
 }
 
@@ -105,14 +114,14 @@ impl<'a> Displaced<'a> {
     }
 
     /// Evaluates the law at the points; the smallest J comes back.
-    pub(super) fn evaluate<M: Local>(
+    pub(super) fn evaluate(
         &self,
-        law: &M,
+        law: &dyn GradientLaw,
         s: f64,
         request: Request,
         out: &mut GradientState,
     ) -> f64 {
-        out.evaluate(law, GradientBatch { points: &self.modes.points, s, h: &self.h }, request)
+        law.evaluate(GradientBatch { points: &self.modes.points, s, h: &self.h }, request, out)
     }
 
     /// ∫u dV.
@@ -179,40 +188,51 @@ impl<'a> Displaced<'a> {
         let n = self.modes.points.len();
         let mut strain = Matrix6::zeros();
         // stiffness in E, entry by entry, and the mixed one, weighted
-        let mut d = vec![0.0; 45 * n];
+        let mut stiffness = vec![0.0; 45 * n];
         let mut mixed: [DMatrix<f64>; 3] = std::array::from_fn(|_| DMatrix::zeros(3 * n, 6));
         for q in 0..n {
             let (in_e, third) = self.point_stiffness(state, q);
-            let b = self.strain_columns(q);
-            let w = self.frame.volume[q];
+            let (b, w) = (self.strain_columns(q), self.frame.volume[q]);
             for (i, row) in in_e.iter().enumerate() {
                 for k in i..9 {
-                    d[packed(i, k) * n + q] = row[k] * w;
+                    stiffness[packed(i, k) * n + q] = row[k] * w;
                 }
             }
             let c_33 = Matrix3::from_fn(|i, k| state.stiffness[packed_any(3 * i + 2, 3 * k + 2) * n + q]);
             strain += b.transpose() * c_33 * b * w;
-            // ∂²U/∂E∂ξ: Tᵀ C B, and the work of P₃ on δω × δw
-            let p = [2, 5, 8].map(|c| state.stress[c * n + q] * w * self.frame.inverse[q]);
-            for c in 0..9 {
-                let (i, block) = (c / 3, c % 3);
-                for k in 0..6 {
-                    let sum: f64 = (0..3).map(|m| third[c][m] * b[(m, k)]).sum();
-                    mixed[i][(block * n + q, k)] = sum * w;
-                }
-                if block == 2 {
-                    for k in 0..3 {
-                        // p · (e_k × e_i)
-                        if k != i {
-                            let sign = if (k + 1) % 3 == i { 1.0 } else { -1.0 };
-                            mixed[i][(block * n + q, k)] += sign * p[3 - k - i];
-                        }
-                    }
+            self.add_mixed(q, &third, &b, state, &mut mixed);
+        }
+        let (coefficients, mixed) = self.assemble(&stiffness, &mixed);
+        Curvatures { strain, mixed, coefficients }
+    }
+
+    /// Adds ∂²U/∂E∂ξ at point q: Tᵀ C B, and the work of P₃ on δω × δw.
+    fn add_mixed(
+        &self,
+        q: usize,
+        third: &[[f64; 3]; 9],
+        b: &SMatrix<f64, 3, 6>,
+        state: &GradientState,
+        mixed: &mut [DMatrix<f64>; 3],
+    ) {
+        let n = self.modes.points.len();
+        let w = self.frame.volume[q];
+        for c in 0..9 {
+            for k in 0..6 {
+                let sum: f64 = (0..3).map(|m| third[c][m] * b[(m, k)]).sum();
+                mixed[c / 3][((c % 3) * n + q, k)] = sum * w;
+            }
+        }
+        let p = [2, 5, 8].map(|c| state.stress[c * n + q] * w * self.frame.inverse[q]);
+        for i in 0..3 {
+            for k in 0..3 {
+                if k != i {
+                    // p · (e_k × e_i)
+                    let sign = if (k + 1) % 3 == i { 1.0 } else { -1.0 };
+                    mixed[i][(2 * n + q, k)] += sign * p[3 - k - i];
                 }
             }
         }
-        let (coefficients, mixed) = self.assemble(&d, &mixed);
-        Curvatures { strain, mixed, coefficients }
     }
 
     /// At point q: ∂H₃/∂Δξ.

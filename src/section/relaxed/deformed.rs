@@ -7,13 +7,13 @@ use super::modes::Modes;
 use super::pressure;
 use crate::error::{Error, Result};
 use crate::lie::Strain;
-use crate::material::{GradientBatch, GradientState, Local, Points, Request, Station};
+use crate::material::{GradientBatch, GradientLaw, GradientState, Points, Request, Station};
 
 /// A relaxed section at a strain, to be looked at point by point: where its points went, and what they bear.
-#[derive(Clone, Debug)]
-pub struct Deformed<'a, M> {
+#[derive(Clone)]
+pub struct Deformed<'a> {
     pub(super) modes: Cow<'a, Modes>,
-    pub(super) law: &'a M,
+    pub(super) law: &'a dyn GradientLaw,
     pub(super) at: Station,
     pub(super) strain: Strain,
     /// The coefficients of the displacement.
@@ -64,7 +64,7 @@ pub struct Extremes {
     pub stress: SectionPoint,
 }
 
-impl<M: Local> Deformed<'_, M> {
+impl Deformed<'_> {
     /// The state of any point (x, y), m.
     ///
     /// # Errors
@@ -85,7 +85,7 @@ impl<M: Local> Deformed<'_, M> {
         let points = Points { x: vec![x], y: vec![y], weight: vec![1.0], rates: None };
         let mut state = GradientState::default();
         let batch = GradientBatch { points: &points, s: self.at.s, h: &h };
-        let smallest = state.evaluate(self.law, batch, Request::Wrench);
+        let smallest = self.law.evaluate(batch, Request::Tangent, &mut state);
         let s = self.at.s;
         if !(smallest > 0.0) {
             return Err(Error::Inadmissible {

@@ -8,7 +8,7 @@ use super::pressure;
 use super::system::{System, augmented};
 use crate::error::{Error, Result};
 use crate::lie::Strain;
-use crate::material::{GradientState, Local, Request, Station};
+use crate::material::{GradientLaw, GradientState, Request, Station};
 
 /// Newton iterations at one strain; an energy that has a minimum within reach takes three to ten.
 const ITERATIONS: usize = 40;
@@ -80,9 +80,9 @@ impl Derivatives {
 }
 
 /// What equilibrium is sought for.
-pub(super) struct Problem<'a, M> {
+pub(super) struct Problem<'a> {
     pub(super) modes: &'a Modes,
-    pub(super) law: &'a M,
+    pub(super) law: &'a dyn GradientLaw,
     pub(super) at: &'a Station,
     /// How many pressures keep the volume; 0 for a compressible law.
     pub(super) pressures: usize,
@@ -94,9 +94,11 @@ enum Miss {
     Step(Error),
     /// An equilibrium that is no minimum.
     Unstable(Error),
+    /// A reference that no strain changes.
+    Reference(Error),
 }
 
-impl<M: Local> Problem<'_, M> {
+impl Problem<'_> {
     /// From a start, or from rest: at once, or else along the straight way from rest, with the tangent as predictor.
     ///
     /// # Errors
@@ -104,7 +106,7 @@ impl<M: Local> Problem<'_, M> {
     pub(super) fn solve(&self, strain: &Strain, start: &DVector<f64>) -> Result<Equilibrium> {
         match self.newton(strain, start) {
             Ok(found) => Ok(found),
-            Err(Miss::Unstable(error)) => Err(error),
+            Err(Miss::Unstable(error) | Miss::Reference(error)) => Err(error),
             Err(Miss::Step(_)) => self.along(strain),
         }
     }
@@ -146,7 +148,7 @@ impl<M: Local> Problem<'_, M> {
     }
 
     fn newton(&self, strain: &Strain, start: &DVector<f64>) -> Result<Equilibrium, Miss> {
-        let frame = Frame::new(self.modes, self.at, strain);
+        let frame = Frame::new(self.modes, self.at, strain).map_err(Miss::Reference)?;
         let mut state = GradientState::default();
         let (mut q, mut displaced) = self.begin(&frame, start, &mut state).map_err(Miss::Step)?;
         let mut step = DVector::from_element(q.len(), f64::INFINITY);
@@ -338,7 +340,7 @@ impl<M: Local> Problem<'_, M> {
 impl Miss {
     fn error(self) -> Error {
         match self {
-            Self::Step(error) | Self::Unstable(error) => error,
+            Self::Step(error) | Self::Unstable(error) | Self::Reference(error) => error,
         }
     }
 }

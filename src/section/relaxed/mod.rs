@@ -5,6 +5,7 @@
 
 mod assembly;
 mod choose;
+mod condense;
 mod deformed;
 mod equilibrium;
 mod modes;
@@ -18,15 +19,15 @@ use std::borrow::Cow;
 
 use nalgebra::{DMatrix, DVector};
 
-use self::assembly::{Displaced, Frame};
-use self::equilibrium::{Equilibrium, Problem};
+use self::condense::condense;
+use self::equilibrium::Problem;
 use self::modes::Modes;
-use super::CrossSection;
 use super::geometry::{AreaMoments, Geometry};
 use super::shape::Shape;
+use super::{CrossSection, Section};
 use crate::error::{Error, Result};
-use crate::lie::{Strain, Wrench};
-use crate::material::{GradientState, Local, Request, Response, Station, check_strain};
+use crate::lie::Strain;
+use crate::material::{Local, Request, Response, Station, check_strain};
 
 pub use choose::{LadderReport, LadderStep};
 pub use deformed::{Deformed, Extremes, SectionPoint};
@@ -117,8 +118,9 @@ impl Relaxation {
 }
 
 impl<S: Shape, M: Local> Relaxed<S, M> {
-    /// The smallest degree of the quadrature, unless another is asked for or the shape has no rule of it: as for a rigid section.
-    const LEAST_DEGREE: usize = 12;
+    /// The smallest degree of the quadrature, unless another is asked for or the shape has no rule of it. The displacements' own error is
+    /// larger than that of this rule; with none it is as for a rigid section.
+    const LEAST_DEGREE: usize = 8;
 
     /// A section of the given shape and material with the functions of [`Warping::TORSION`].
     ///
@@ -188,7 +190,7 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
 
     /// The same with a quadrature exact for polynomials of this degree in (x, y).
     ///
-    /// Without it the degree is 2 max(p, r) + 2 (twice that on a tube) and at least 12: exact for the second derivatives at rest, and at finite strain with an
+    /// Without it the degree is 2 max(p, r) + 2 (twice that on a tube) and at least 8: exact for the second derivatives at rest, and at finite strain with an
     /// error below that of the displacements.
     ///
     /// # Errors
@@ -238,7 +240,9 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
     fn quadrature_degree(&self) -> usize {
         // a rule of degree d on a tube has d/4 + 1 radii, and functions of degree k in the radius want k + 1 and some
         let factor = if self.shape.is_ring() { 4 } else { 2 };
-        let degree = (factor * (self.warping.degree() + 1)).max(Self::LEAST_DEGREE);
+        let least =
+            if self.warping == Warping::RIGID { Section::<S, M>::DEFAULT_DEGREE } else { Self::LEAST_DEGREE };
+        let degree = (factor * (self.warping.degree() + 1)).max(least);
         self.degree.unwrap_or(degree.min(self.shape.max_degree()))
     }
 
@@ -297,7 +301,7 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
         let modes = self.modes(at.s)?;
         let problem = self.problem(&modes, at);
         let equilibrium = problem.solve(strain, &self.start(problem.unknowns(), start, strain))?;
-        let response = self.condense(&problem, strain, &equilibrium, request)?;
+        let response = condense(&problem, strain, &equilibrium, request)?;
         let relaxation = Relaxation {
             strain: *strain,
             sensitivity: equilibrium.sensitivity(),
@@ -325,7 +329,7 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
     ///
     /// # Errors
     /// As [`CrossSection::respond`].
-    pub fn deformed(&self, at: &Station, strain: &Strain) -> Result<Deformed<'_, M>> {
+    pub fn deformed(&self, at: &Station, strain: &Strain) -> Result<Deformed<'_>> {
         let (_, relaxation) = self.respond_from(None, at, strain, Request::Wrench)?;
         let modes = self.modes(at.s)?;
         let coefficients = modes.expand(&relaxation.amplitudes);
@@ -333,7 +337,7 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
         Ok(Deformed { modes, law: &self.law, at: *at, strain: *strain, coefficients, pressures })
     }
 
-    fn problem<'a>(&'a self, modes: &'a Modes, at: &'a Station) -> Problem<'a, M> {
+    fn problem<'a>(&'a self, modes: &'a Modes, at: &'a Station) -> Problem<'a> {
         let pressures = match (self.incompressible, self.warping.in_plane) {
             (false, _) | (true, 0) => 0,
             (true, 1) => 1,
@@ -351,55 +355,6 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
             _ => DVector::zeros(unknowns),
         }
     }
-
-    /// Energy, wrench and tangent of the section in equilibrium, the last correction accounted for to second order.
-    fn condense(
-        &self,
-        problem: &Problem<'_, M>,
-        strain: &Strain,
-        equilibrium: &Equilibrium,
-        request: Request,
-    ) -> Result<Response> {
-        let (slopes, step) = (&equilibrium.slopes, &equilibrium.correction);
-        let mut response = Response::zero();
-        response.energy = slopes.energy;
-        let mut psi = slopes.strain;
-        let mut tangent = equilibrium.curvatures.strain;
-        if let Some(system) = &equilibrium.system {
-            // to second order in the last correction δq = −U_qq⁻¹ U_q
-            response.energy += equilibrium.lowered;
-            for (k, change) in equilibrium.mixed.tr_mul(step).iter().enumerate() {
-                psi[k] += change;
-            }
-            let solved = system.solve(&equilibrium.mixed);
-            for i in 0..6 {
-                for k in i..6 {
-                    tangent[(i, k)] -= equilibrium.mixed.column(i).dot(&solved.column(k));
-                }
-            }
-        }
-        for i in 0..6 {
-            for k in 0..i {
-                tangent[(i, k)] = tangent[(k, i)];
-            }
-        }
-        if request >= Request::Wrench {
-            response.wrench = Wrench::from_vector(&psi);
-        }
-        if request >= Request::Tangent {
-            response.tangent = tangent;
-        }
-        if request >= Request::Rate {
-            let frame = Frame::new(problem.modes, problem.at, strain);
-            let coefficients = problem.modes.expand(&equilibrium.evaluated_at);
-            let displaced = Displaced::new(problem.modes, &frame, &coefficients);
-            let mut state = GradientState::default();
-            problem.evaluate(&displaced, &equilibrium.evaluated_at, Request::Rate, &mut state)?;
-            let rate = rate::wrench_rate(&displaced, &state, equilibrium, &coefficients, problem.at);
-            response.wrench_rate = Wrench::from_vector(&rate);
-        }
-        Ok(response)
-    }
 }
 
 impl<S: Shape, M: Local> CrossSection for Relaxed<S, M> {
@@ -414,5 +369,9 @@ impl<S: Shape, M: Local> Geometry for Relaxed<S, M> {
             Some(modes) => Ok(AreaMoments::of(&modes.points)),
             None => Ok(AreaMoments::of(&self.shape.place(&self.shape.rule(2)?, s)?)),
         }
+    }
+
+    fn weighted_third_moments(&self, s: f64) -> Result<[f64; 4]> {
+        Ok(AreaMoments::third(&self.shape.place(&self.shape.rule(3)?, s)?))
     }
 }

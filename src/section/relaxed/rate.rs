@@ -5,7 +5,7 @@
 
 use nalgebra::{DMatrix, DVector, Vector6};
 
-use super::assembly::{Displaced, column, times};
+use super::assembly::{Displaced, column, packed_any, times};
 use super::equilibrium::Equilibrium;
 use super::modes::Modes;
 use super::pressure;
@@ -103,81 +103,141 @@ fn conditions_rate(modes: &Modes) -> DMatrix<f64> {
     out
 }
 
+/// How the section changes along s at fixed strain and coefficients.
+struct Motion<'a> {
+    displaced: &'a Displaced<'a>,
+    state: &'a GradientState,
+    xi: [f64; 6],
+    xi_rate: [f64; 6],
+    /// Eᵢ′.
+    e_rate: [DVector<f64>; 3],
+}
+
+/// At one point: rates of the reference, of H, of the volume, of r and of w.
+struct PointMotion {
+    shear: [f64; 2],
+    shear_rate: [f64; 2],
+    h: [f64; 9],
+    weight: f64,
+    volume: f64,
+    position: [f64; 3],
+}
+
+/// The curvature part of six components.
+fn turning(v: &[f64; 6]) -> [f64; 6] {
+    [v[0], v[1], v[2], 0.0, 0.0, 0.0]
+}
+
+impl Motion<'_> {
+    fn at(&self, q: usize) -> PointMotion {
+        let (displaced, frame) = (self.displaced, self.displaced.frame);
+        let points = &displaced.modes.points;
+        let n = points.len();
+        let [dx, dy, weight] =
+            points.rates.as_ref().map_or([0.0; 3], |rates| [rates.x[q], rates.y[q], rates.weight[q]]);
+        let (shear, inverse) = ([frame.shear[0][q], frame.shear[1][q]], frame.inverse[q]);
+        let own = column(&self.xi_rate, points.x[q], points.y[q]);
+        let carried = column(&turning(&self.xi), dx, dy);
+        let [g_0, g_1, dj] = [0, 1, 2].map(|i| own[i] + carried[i]);
+        let at_point = |e: &[DVector<f64>; 3], block: usize| [0, 1, 2].map(|i| e[i][block * n + q]);
+        let d_displacement = at_point(&self.e_rate, 2);
+        let [o_x, o_y, o_z, ..] = self.xi_rate;
+        let turned = times(&[o_x, o_y, o_z], &at_point(&displaced.e, 2));
+        let swept = times(&frame.omega, &d_displacement);
+        let third = column(&turning(&frame.strain), dx, dy);
+        let mut h = [0.0; 9];
+        for i in 0..3 {
+            let (e_x, e_y) = (displaced.e[i][q], displaced.e[i][n + q]);
+            let (d_x, d_y) = (self.e_rate[i][q], self.e_rate[i][n + q]);
+            let numerator =
+                third[i] + turned[i] + swept[i] - g_0 * e_x - g_1 * e_y - shear[0] * d_x - shear[1] * d_y;
+            h[3 * i] = d_x;
+            h[3 * i + 1] = d_y;
+            h[3 * i + 2] = (numerator - displaced.h[(3 * i + 2) * n + q] * dj) * inverse;
+        }
+        PointMotion {
+            shear,
+            shear_rate: [g_0, g_1],
+            h,
+            weight,
+            volume: weight / inverse + points.weight[q] * dj,
+            position: [dx + d_displacement[0], dy + d_displacement[1], d_displacement[2]],
+        }
+    }
+
+    /// P and P′ = ∂P/∂s + ∂P/∂F H′ at point q.
+    fn stress(&self, q: usize, h_rate: &[f64; 9]) -> ([f64; 9], [f64; 9]) {
+        let n = self.displaced.modes.points.len();
+        let stress = std::array::from_fn(|c| self.state.stress[c * n + q]);
+        let rate = std::array::from_fn(|c| {
+            let carried = |k: usize| self.state.stiffness[packed_any(c, k) * n + q] * h_rate[k];
+            self.state.stress_rate[c * n + q] + (0..9).map(carried).sum::<f64>()
+        });
+        (stress, rate)
+    }
+
+    /// Adds point q to Tᵀ P dV and its rate, component by component, and to the rate of U_ξ.
+    fn add(
+        &self,
+        q: usize,
+        motion: &PointMotion,
+        f: &mut [DVector<f64>; 3],
+        f_rate: &mut [DVector<f64>; 3],
+        strain: &mut Vector6<f64>,
+    ) {
+        let (displaced, frame) = (self.displaced, self.displaced.frame);
+        let n = displaced.modes.points.len();
+        let (w, volume) = (displaced.modes.points.weight[q], frame.volume[q]);
+        let (p, p_rate) = self.stress(q, &motion.h);
+        let force = [2, 5, 8].map(|c| w * p[c]);
+        let force_rate = [2, 5, 8].map(|c| motion.weight * p[c] + w * p_rate[c]);
+        let along = times(&force, &frame.omega);
+        let along_rate = times(&force_rate, &frame.omega);
+        let [o_x, o_y, o_z, ..] = self.xi_rate;
+        let extra = times(&force, &[o_x, o_y, o_z]);
+        for i in 0..3 {
+            for a in 0..2 {
+                let c = 3 * i + a;
+                f[i][a * n + q] = volume * p[c] - motion.shear[a] * force[i];
+                f_rate[i][a * n + q] = motion.volume * p[c] + volume * p_rate[c]
+                    - motion.shear_rate[a] * force[i]
+                    - motion.shear[a] * force_rate[i];
+            }
+            f[i][2 * n + q] = along[i];
+            f_rate[i][2 * n + q] = along_rate[i] + extra[i];
+        }
+        let moved = times(&motion.position, &force);
+        let grown = times(&displaced.position(q), &force_rate);
+        for i in 0..3 {
+            strain[i] += moved[i] + grown[i];
+            strain[3 + i] += force_rate[i];
+        }
+    }
+}
+
 fn drift(
     displaced: &Displaced<'_>,
     state: &GradientState,
     coefficients: &DVector<f64>,
     at: &Station,
 ) -> Drift {
-    let (modes, frame) = (displaced.modes, displaced.frame);
+    let modes = displaced.modes;
     let n = modes.points.len();
-    let zero = vec![0.0; n];
-    let (dx, dy, dw) = match &modes.points.rates {
-        Some(rates) => (&rates.x, &rates.y, &rates.weight),
-        None => (&zero, &zero, &zero),
-    };
     let e_rate: [DVector<f64>; 3] = std::array::from_fn(|i| match &modes.space.rate {
         Some(rate) => rate.columns(0, modes.counts[i]) * coefficients.rows(modes.start(i), modes.counts[i]),
         None => DVector::zeros(3 * n),
     });
     let (xi, xi_rate) = (at.reference.twist.to_array(), at.reference.rate.to_array());
-    let turning = [xi_rate[0], xi_rate[1], xi_rate[2]];
-    let moving = |v: &[f64; 6]| [v[0], v[1], v[2], 0.0, 0.0, 0.0];
+    let section = Motion { displaced, state, xi, xi_rate, e_rate };
     let mut strain = Vector6::zeros();
     let mut f: [DVector<f64>; 3] = std::array::from_fn(|_| DVector::zeros(3 * n));
     let mut f_rate = f.clone();
-    let (mut h_rates, mut volume_rates) = (Vec::with_capacity(n), Vec::with_capacity(n));
+    let (mut h, mut volume) = (Vec::with_capacity(n), Vec::with_capacity(n));
     for q in 0..n {
-        let (x, y, w) = (modes.points.x[q], modes.points.y[q], modes.points.weight[q]);
-        let (g, v) = ([frame.shear[0][q], frame.shear[1][q]], frame.inverse[q]);
-        let own = column(&xi_rate, x, y);
-        let carried = column(&moving(&xi), dx[q], dy[q]);
-        let [g0, g1, dj] = [0, 1, 2].map(|i| own[i] + carried[i]);
-        let (volume, d_volume) = (frame.volume[q], dw[q] / v + w * dj);
-        // H′
-        let third = column(&moving(&frame.strain), dx[q], dy[q]);
-        let at_point = |e: &[DVector<f64>; 3], block: usize| [0, 1, 2].map(|i| e[i][block * n + q]);
-        let (displacement, d_displacement) = (at_point(&displaced.e, 2), at_point(&e_rate, 2));
-        let turned = times(&turning, &displacement);
-        let swept = times(&frame.omega, &d_displacement);
-        let mut h_rate = [0.0; 9];
-        for i in 0..3 {
-            let (e_x, e_y) = (displaced.e[i][q], displaced.e[i][n + q]);
-            let (d_x, d_y) = (e_rate[i][q], e_rate[i][n + q]);
-            let numerator = third[i] + turned[i] + swept[i] - g0 * e_x - g1 * e_y - g[0] * d_x - g[1] * d_y;
-            h_rate[3 * i] = d_x;
-            h_rate[3 * i + 1] = d_y;
-            h_rate[3 * i + 2] = (numerator - displaced.h[(3 * i + 2) * n + q] * dj) * v;
-        }
-        h_rates.push(h_rate);
-        volume_rates.push(d_volume);
-        // P′
-        let p: [f64; 9] = std::array::from_fn(|c| state.stress[c * n + q]);
-        let p_rate: [f64; 9] = std::array::from_fn(|c| {
-            let carried = |k: usize| state.stiffness[super::assembly::packed_any(c, k) * n + q] * h_rate[k];
-            state.stress_rate[c * n + q] + (0..9).map(carried).sum::<f64>()
-        });
-        let force = [2, 5, 8].map(|c| w * p[c]);
-        let force_rate = [2, 5, 8].map(|c| dw[q] * p[c] + w * p_rate[c]);
-        let (along, along_rate) = (times(&force, &frame.omega), times(&force_rate, &frame.omega));
-        let extra = times(&force, &turning);
-        for i in 0..3 {
-            for (a, (shear, shear_rate)) in [(g[0], g0), (g[1], g1)].into_iter().enumerate() {
-                f[i][a * n + q] = volume * p[3 * i + a] - shear * force[i];
-                f_rate[i][a * n + q] = d_volume * p[3 * i + a] + volume * p_rate[3 * i + a]
-                    - shear_rate * force[i]
-                    - shear * force_rate[i];
-            }
-            f[i][2 * n + q] = along[i];
-            f_rate[i][2 * n + q] = along_rate[i] + extra[i];
-        }
-        let position = displaced.position(q);
-        let d_position = [dx[q] + d_displacement[0], dy[q] + d_displacement[1], d_displacement[2]];
-        let (one, two) = (times(&d_position, &force), times(&position, &force_rate));
-        for i in 0..3 {
-            strain[i] += one[i] + two[i];
-            strain[3 + i] += force_rate[i];
-        }
+        let motion = section.at(q);
+        section.add(q, &motion, &mut f, &mut f_rate, &mut strain);
+        h.push(motion.h);
+        volume.push(motion.volume);
     }
     let mut coefficients = displaced.gather(&f_rate);
     if let Some(rate) = &modes.space.rate {
@@ -187,5 +247,5 @@ fn drift(
             rows += part;
         }
     }
-    Drift { strain, coefficients, h: h_rates, volume: volume_rates }
+    Drift { strain, coefficients, h, volume }
 }

@@ -208,12 +208,14 @@ fn moving(tables: &[DMatrix<f64>; 6], points: &Points, area: f64) -> DMatrix<f64
     out
 }
 
+/// Functions weighted by the roots of the weights: value, ∂/∂x and ∂/∂y, a column each.
+type Weighted = [DMatrix<f64>; 3];
+
 /// Coefficients of the orthonormal functions, by Gram and Schmidt, twice over.
 fn orthonormalise(tables: &[DMatrix<f64>; 6], weight: &[f64], area: f64) -> Result<DMatrix<f64>> {
     let (q_count, n) = tables[0].shape();
     let root = DVector::from_iterator(q_count, weight.iter().map(|w| w.sqrt()));
-    // columns: root-weighted value, ∂/∂x, ∂/∂y
-    let weighted: [DMatrix<f64>; 3] = [0, 1, 2].map(|k| {
+    let weighted: Weighted = [0, 1, 2].map(|k| {
         let mut m = tables[k].clone();
         for mut column in m.column_iter_mut() {
             column.component_mul_assign(&root);
@@ -221,7 +223,7 @@ fn orthonormalise(tables: &[DMatrix<f64>; 6], weight: &[f64], area: f64) -> Resu
         m
     });
     let mut c = DMatrix::<f64>::zeros(n, n);
-    let mut done: [DMatrix<f64>; 3] = std::array::from_fn(|_| DMatrix::zeros(q_count, n));
+    let mut done: Weighted = std::array::from_fn(|_| DMatrix::zeros(q_count, n));
     // the radius of gyration makes lengths of values and numbers of gradients
     let gyration = gyration(&weighted);
     for l in 0..n {
@@ -230,29 +232,15 @@ fn orthonormalise(tables: &[DMatrix<f64>; 6], weight: &[f64], area: f64) -> Resu
         a[l] = 1.0;
         let whole = norms(&f);
         for _ in 0..2 {
-            for m in 0..l {
-                // against the first three in L², against the others in the gradients
-                let kinds: &[usize] = if m < 3 { &[0] } else { &[1, 2] };
-                let (mut product, mut norm) = (0.0, 0.0);
-                for &k in kinds {
-                    product += done[k].column(m).dot(&f[k]);
-                    norm += done[k].column(m).norm_squared();
-                }
-                let factor = product / norm;
-                for k in 0..3 {
-                    f[k].axpy(-factor, &done[k].column(m), 1.0);
-                }
-                a.axpy(-factor, &c.column(m), 1.0);
-            }
+            take_off(&done, &c, l, &mut f, &mut a);
         }
         let [value, gradient] = norms(&f);
         let (left, all) = if l < 3 { (value, whole[0]) } else { (gradient, whole[1]) };
         if !(left > INDEPENDENT * all) {
-            return Err(Error::Invalid {
-                quantity: "independent functions for the displacement of a section",
-                value: l as f64,
-                requirement: "more: the quadrature has too few points for the degrees asked for, or the section no extent",
-            });
+            let requirement =
+                "more: the quadrature has too few points for the degrees asked for, or the section no extent";
+            let quantity = "independent functions for the displacement of a section";
+            return Err(Error::Invalid { quantity, value: l as f64, requirement });
         }
         let scale = if l < 3 { gyration * area.sqrt() / value } else { area.sqrt() / gradient };
         c.set_column(l, &(a * scale));
@@ -261,6 +249,23 @@ fn orthonormalise(tables: &[DMatrix<f64>; 6], weight: &[f64], area: f64) -> Resu
         }
     }
     Ok(c)
+}
+
+/// Takes off function l what the ones before span: the first three in L², the others in the gradients.
+fn take_off(done: &Weighted, c: &DMatrix<f64>, l: usize, f: &mut [DVector<f64>; 3], a: &mut DVector<f64>) {
+    for m in 0..l {
+        let kinds: &[usize] = if m < 3 { &[0] } else { &[1, 2] };
+        let (mut product, mut norm) = (0.0, 0.0);
+        for &k in kinds {
+            product += done[k].column(m).dot(&f[k]);
+            norm += done[k].column(m).norm_squared();
+        }
+        let factor = product / norm;
+        for k in 0..3 {
+            f[k].axpy(-factor, &done[k].column(m), 1.0);
+        }
+        a.axpy(-factor, &c.column(m), 1.0);
+    }
 }
 
 /// √∫f² and √∫|∇f|².

@@ -59,7 +59,7 @@ fn events<S>(traced: &Traced<S>, kind: EventKind) -> Vec<&Event<S>> {
 #[test]
 fn a_path_snaps_through_both_limit_points_of_a_cubic() {
     let stride = Stride { factors: [-10.0, 2.0], ..Stride::default() };
-    let start = -1.3247179572447460; // x³ − x = −1
+    let start = -1.324_717_957_244_746; // x³ − x = −1
     let traced = trace(&mut Potential(cubic), at(&[start]), -1.0, &stride, |_| false).unwrap();
     let limits = events(&traced, EventKind::LimitPoint);
     let [first, second] = limits[..] else { panic!("{} limit points", limits.len()) };

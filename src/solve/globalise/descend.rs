@@ -143,7 +143,7 @@ pub(super) fn turned_aside<B: Elastic, const S: usize>(
             let bend = ASIDE / length;
             let aside =
                 [bend * (5.3 * phase + 0.3).cos(), bend * (7.2 * phase + 0.5).sin(), 0.0, 0.0, 0.0, 0.0];
-            *strain = *strain + Strain::from_array(aside);
+            *strain += Strain::from_array(aside);
         }
     }
     unknowns
