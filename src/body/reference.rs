@@ -8,6 +8,7 @@ use crate::material::Reference;
 type Varying = Arc<dyn Fn(Dual64) -> Twist<Dual64> + Send + Sync>;
 
 /// The shape of a body at rest, given by its strain twist ξ*(s).
+#[non_exhaustive]
 #[derive(Clone, Default)]
 pub enum ReferenceShape {
     /// Straight and unstretched along e₃.

@@ -47,6 +47,7 @@ pub struct PathState {
 }
 
 /// What happens on a path.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PathEventKind {
     /// The load factor has an extremum: beyond it the rod snaps, under a load that cannot give way.
@@ -67,6 +68,7 @@ pub struct PathEvent {
 }
 
 /// Why a walk ended.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub enum PathEnd {
     /// At a bound of the load factor.
