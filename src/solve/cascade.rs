@@ -107,10 +107,10 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
 
     /// Cuts elements until the estimated error is below `accuracy`.
     pub(super) fn to(&mut self, accuracy: f64) -> Solved {
-        self.twice(|cascade| cascade.to_once(accuracy))
+        self.twice(|cascade| cascade.reach_once(accuracy))
     }
 
-    fn to_once(&mut self, accuracy: f64) -> Solved {
+    fn reach_once(&mut self, accuracy: f64) -> Solved {
         self.check_supports()?;
         let length = self.rod.body().length();
         self.newton.stop = Stop::Error(FIRST_NEWTON);
