@@ -166,8 +166,12 @@ impl<const S: usize> Condensed<S> {
         let mut system = StageSystem::<S, C>::new::<SOFT>(state, &variations);
         let mut ends = Ends::<S>::default();
         if let Some(loads) = state.load {
-            let from_zeta =
-                LoadTerms::new(state, loads, &variations)?.add(table, state, &mut system, &mut ends);
+            let from_zeta = LoadTerms::new::<SOFT>(state, loads, &variations)?.add::<C, SOFT>(
+                table,
+                state,
+                &mut system,
+                &mut ends,
+            );
             self.transfer.wrench_from_zeta = from_zeta;
         } else {
             self.transfer.wrench_from_zeta = Matrix6::zeros();
@@ -205,7 +209,10 @@ impl<const S: usize> Condensed<S> {
         let mut n = cross(force, &w);
         if C == COLUMNS {
             for l in 0..S {
-                m -= loads.blocks[l][0] * angular[l] + loads.blocks[l][1] * linear[l];
+                m -= loads.blocks[l][0] * angular[l];
+                if SOFT {
+                    m -= loads.blocks[l][1] * linear[l];
+                }
                 n -= loads.blocks[l][2] * angular[l];
             }
         }

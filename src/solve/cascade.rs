@@ -22,6 +22,9 @@ const MAX_LEVELS: usize = 16;
 /// The most elements it may use.
 const MAX_ELEMENTS: usize = 20_000;
 
+/// Meshes on which the estimate does not fall, of which more are no use.
+const MAX_STALLS: usize = 2;
+
 /// The estimate is multiplied by this: the ratio of two defects predicts a gain to a factor of about two.
 const SAFETY: f64 = 2.0;
 
@@ -115,7 +118,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         // the sum of the defects is of the size of the error: enough to choose the second mesh
         let mut predicted = level.defect.total();
         let mut parts = cuts(&level.defect.shares, accuracy / predicted, 2 * S, FIRST_PARTS);
-        let mut best = f64::INFINITY;
+        let (mut best, mut stalls) = (f64::INFINITY, 0);
         for _ in 0..MAX_LEVELS {
             let mesh = level.mesh.refined(&parts);
             let start = level.outcome.unknowns.prolonged(&level.mesh, &parts);
@@ -133,8 +136,12 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
             let elements: usize = parts.iter().sum();
             let coarse = std::mem::replace(&mut level, fine).outcome;
             coarse.state.into_iter().for_each(|state| self.buffers.recycle(state));
+            if estimated > 0.5 * best {
+                stalls += 1;
+            }
             // below 1e-9 an error that no longer falls is rounding
-            if elements > MAX_ELEMENTS || (estimated < 1e-9 && estimated > 0.5 * best) {
+            if elements > MAX_ELEMENTS || stalls > MAX_STALLS || (estimated < 1e-9 && estimated > 0.5 * best)
+            {
                 break;
             }
             best = best.min(estimated);

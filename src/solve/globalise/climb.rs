@@ -3,7 +3,7 @@
 use super::descend::{descend, turned_aside};
 use super::family::RodFamily;
 use super::load_steps::load_steps;
-use super::verdict::{NEUTRAL_START, SAFE, is_conservative, is_surely_stable, needed_parts, stability};
+use super::verdict::{NEUTRAL_START, SAFE, is_surely_stable, needed_parts, stability};
 use crate::body::Elastic;
 use crate::solve::cascade::Cascade;
 use crate::solve::continuation::{End, Stride, trace};
@@ -75,14 +75,8 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         mesh: Mesh<'r, B, S>,
         unstable: Option<Outcome<S>>,
     ) -> Option<(Mesh<'r, B, S>, Outcome<S>)> {
-        let (mut mesh, from, conservative) = self.cut(mesh, unstable.as_ref());
-        // loads without a potential are brought on in steps first: there is no energy to go down
-        let rungs = if conservative {
-            [Rung::Regularised, Rung::LoadSteps, Rung::ArcLength]
-        } else {
-            [Rung::LoadSteps, Rung::Regularised, Rung::ArcLength]
-        };
-        for rung in rungs {
+        let (mut mesh, from) = self.cut(mesh, unstable.as_ref());
+        for rung in [Rung::Regularised, Rung::LoadSteps, Rung::ArcLength] {
             self.report.reach(rung);
             let found = match rung {
                 Rung::LoadSteps => load_steps(&mut mesh, self.buffers, &mut self.report.iterations),
@@ -96,12 +90,8 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         None
     }
 
-    /// A mesh fine enough to tell what is stable, where to start on it, and whether there is an energy.
-    fn cut(
-        &mut self,
-        mesh: Mesh<'r, B, S>,
-        unstable: Option<&Outcome<S>>,
-    ) -> (Mesh<'r, B, S>, Unknowns<S>, bool) {
+    /// A mesh fine enough to tell what is stable, and where to start on it.
+    fn cut(&mut self, mesh: Mesh<'r, B, S>, unstable: Option<&Outcome<S>>) -> (Mesh<'r, B, S>, Unknowns<S>) {
         let least = ELEMENTS.div_ceil(mesh.elements());
         let mut parts = vec![least; mesh.elements()];
         let from = match unstable {
@@ -109,9 +99,7 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
             None => Unknowns::at_rest(&mesh),
         };
         let mut state = self.buffers.configuration();
-        let mut conservative = false;
         if mesh.configure(&from, &mut state).is_ok() {
-            conservative = is_conservative(&mesh, &state);
             let needed = needed_parts(&mesh, &state, SAFE);
             parts.iter_mut().zip(needed).for_each(|(count, needed)| *count = (*count).max(needed.min(64)));
         }
@@ -123,7 +111,7 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         let from = from.prolonged(&mesh, &parts);
         let mesh = mesh.refined(&parts);
         let from = if unstable.is_some() { turned_aside(&mesh, &from) } else { from };
-        (mesh, from, conservative)
+        (mesh, from)
     }
 
     /// The equilibrium next to a state, if it is a stable one, or may be any.
@@ -147,7 +135,7 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         neutral: f64,
     ) -> Stability {
         let stability = match &outcome.state {
-            Some(state) if is_surely_stable(mesh, state, self.buffers) => {
+            Some(state) if is_surely_stable(mesh, state, self.buffers, neutral) => {
                 Stability::Index { unstable: 0, neutral: 0 }
             }
             Some(state) => stability(mesh, &outcome.unknowns, state, self.buffers, neutral),

@@ -10,11 +10,12 @@ use crate::solve::linear::{Buffers, Step};
 use crate::solve::mesh::Mesh;
 use crate::solve::newton::scale;
 use crate::solve::report::Iteration;
+use crate::solve::scale::Scale;
 use crate::solve::stability::{Verdict, chain};
 use crate::solve::unknowns::Unknowns;
 
 /// Models of the energy that are looked at, at the most: an iteration looks at one or more.
-const MODELS: usize = 400;
+const MODELS: usize = 150;
 
 /// μ where it is raised from nothing.
 const FIRST: f64 = 0.05;
@@ -97,6 +98,8 @@ fn convex_step<B: Elastic, const S: usize>(
     let mut model = state.clone();
     while *models < MODELS {
         *models += 1;
+        // the model in units of its own stiffness
+        let scale = Scale { force: scale.force * (1.0 + *mu), ..scale };
         for (modelled, response) in model.response.iter_mut().flatten().zip(state.response.iter().flatten()) {
             let stiff = if soft { convex(&response.tangent) } else { response.tangent };
             modelled.tangent = response.tangent + stiff * *mu;

@@ -11,15 +11,15 @@ use crate::solve::unknowns::Unknowns;
 const FIRST: f64 = 0.25;
 
 /// The smallest.
-const LEAST: f64 = 1e-4;
+const LEAST: f64 = 1e-3;
 
 /// Steps at the most.
-const STEPS: usize = 300;
+const STEPS: usize = 150;
 
 /// Iterations of a step.
 const ITERATIONS: usize = 20;
 
-/// From rest to the full load; every step starts on the secant of the two before. `None` where a step of 1e-4 fails.
+/// From rest to the full load; every step starts on the secant of the two before. `None` where a step of 1e-3 fails.
 pub(super) fn load_steps<B: Elastic, const S: usize>(
     mesh: &mut Mesh<'_, B, S>,
     buffers: &mut Buffers<S>,

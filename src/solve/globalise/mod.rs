@@ -12,3 +12,6 @@ mod verdict;
 pub(super) use climb::unstable;
 pub(super) use family::RodFamily;
 pub(super) use verdict::{NEUTRAL, stability};
+
+#[cfg(test)]
+mod tests;

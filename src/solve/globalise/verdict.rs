@@ -49,12 +49,14 @@ pub(crate) fn is_surely_stable<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     state: &Configuration<S>,
     buffers: &Buffers<S>,
+    neutral: f64,
 ) -> bool {
     mesh.is_cantilever()
         && is_conservative(mesh, state)
         && softening(mesh, state).is_none()
         && needed_parts(mesh, state, SAFE).iter().all(|&count| count == 1)
-        && chain(mesh, state, &buffers.condensed, &scale(mesh, state)).is_some_and(|c| c.is_surely_stable())
+        && chain(mesh, state, &buffers.condensed, &scale(mesh, state))
+            .is_some_and(|c| c.is_surely_stable(10.0 * neutral))
 }
 
 /// How stable a state is. What of the last pivot is below `neutral`, in units of the rod's bending stiffness, counts as nothing.

@@ -50,7 +50,7 @@ pub(super) struct Swept {
 impl Chain {
     /// The index under the essential conditions of both ends; an eigenvalue of the last pivot below `neutral` is nothing.
     pub(crate) fn verdict(&self, neutral: f64) -> Verdict {
-        if self.is_surely_stable() {
+        if self.is_surely_stable(1e-5_f64.max(10.0 * neutral)) {
             return Verdict::Index { unstable: 0, neutral: 0 };
         }
         match self.sweep() {

@@ -1,0 +1,65 @@
+//! Models of the energy under heavy compression.
+
+use nalgebra::{Matrix3, vector};
+
+use crate::lie::{Strain, Wrench};
+use crate::rod::Support;
+use crate::section::Stiffness;
+use crate::solve::equilibrium::Configuration;
+use crate::solve::globalise::descend::{descend, turned_aside};
+use crate::solve::linear::Buffers;
+use crate::solve::mesh::Mesh;
+use crate::solve::newton::scale;
+use crate::solve::scale::Scale;
+use crate::solve::stability::{Verdict, chain};
+use crate::solve::unknowns::Unknowns;
+use crate::{Body, Pose, Rod};
+
+#[test]
+fn a_stiff_enough_model_of_a_heavily_compressed_rod_is_convex_on_any_mesh() {
+    let section = Stiffness::diagonal([1.0, 1.5, 1.0, 1e5, 1e5, 3e5]).unwrap();
+    let far = Pose::new(Matrix3::identity(), vector![0.0, 0.0, 0.9]);
+    let body = Body::new(1.0, section).unwrap();
+    let rod = Rod::between(body, Support::clamped(Pose::identity()), Support::clamped(far));
+    for elements in [8, 20, 33, 64] {
+        let mesh = Mesh::<_, 3>::uniform(&rod, elements);
+        let strain = Strain::from_array([0.0, 0.0, 0.0, 0.0, 0.0, -0.1]);
+        let tip = Wrench::new(vector![0.0, 0.0, 0.0], vector![0.0, 0.0, -3e4]);
+        let unknowns = Unknowns { strains: vec![[strain; 3]; elements], tip, ..Unknowns::at_rest(&mesh) };
+        let mut state = Configuration::default();
+        mesh.configure(&unknowns, &mut state).unwrap();
+        let scale = scale(&mesh, &state);
+        // (2π)² (1 + μ) > P (1 + P/GA …) ≈ 4e4
+        for mu in [0.0, 1e2, 1.2e3, 1e4, 1e6, 1e9, 1e14] {
+            let mut model = state.clone();
+            model.response.iter_mut().flatten().for_each(|response| response.tangent *= 1.0 + mu);
+            let mut buffers = Buffers::<3>::default();
+            buffers.condense(&mesh, &unknowns, &model).unwrap();
+            let scale = Scale { force: scale.force * (1.0 + mu), ..scale };
+            let verdict = chain(&mesh, &model, &buffers.condensed, &scale).unwrap().verdict(1e-11);
+            if mu > 1e3 {
+                assert!(
+                    matches!(verdict, Verdict::Index { unstable: 0, .. }),
+                    "{elements}, {mu:e}: {verdict:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_compressed_rod_goes_down_to_its_buckled_shape() {
+    let section = Stiffness::diagonal([1.0, 1.5, 1.0, 1e5, 1e5, 3e5]).unwrap();
+    let far = Pose::new(Matrix3::identity(), vector![0.0, 0.0, 0.9]);
+    let body = Body::new(1.0, section).unwrap();
+    let rod = Rod::between(body, Support::clamped(Pose::identity()), Support::clamped(far));
+    for elements in [16, 33] {
+        let mesh = Mesh::<_, 3>::uniform(&rod, elements);
+        let strain = Strain::from_array([0.0, 0.0, 0.0, 0.0, 0.0, -0.1]);
+        let tip = Wrench::new(vector![0.0, 0.0, 0.0], vector![0.0, 0.0, -3e4]);
+        let straight = Unknowns { strains: vec![[strain; 3]; elements], tip, ..Unknowns::at_rest(&mesh) };
+        let (mut buffers, mut history) = (Buffers::<3>::default(), Vec::new());
+        let found = descend(&mesh, &turned_aside(&mesh, &straight), &mut buffers, &mut history);
+        assert!(found.is_some(), "{elements}: {} iterations", history.len());
+    }
+}
