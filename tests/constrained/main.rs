@@ -8,7 +8,7 @@ use hyperrod::body::Constraint;
 use hyperrod::load::{DeadLoad, DeadWrench, ElasticFoundation, FollowerWrench};
 use hyperrod::material::NeoHookean;
 use hyperrod::section::{Circle, CrossSection, Linear, Section, Stiffness};
-use hyperrod::solve::Order;
+use hyperrod::solve::{Order, Stability};
 use hyperrod::{Body, Pose, Rod, StaticSolution, Statics, Twist, Wrench};
 use nalgebra::{Vector3, vector};
 use reference::{data, number};
@@ -208,4 +208,21 @@ fn the_law_is_not_asked_about_strains_that_are_fixed() {
     let solution = STATICS.solve(&Rod::clamped(body, Pose::identity()).with_tip_load(force)).unwrap();
     let case = &data("B1_elastica_inextensible.json")["cases"][2];
     assert!((solution.tip().pose.position.x - number(case, "transverse_x_over_L")).abs() < 1e-11);
+}
+
+/// A bent cantilever has no unstable mode, whatever strains it cannot have: its force has a potential, and straightens it.
+#[test]
+fn constraints_do_not_make_a_rod_unstable() {
+    let all = [Constraint::kirchhoff(), Constraint::inextensible(), Constraint::unshearable()];
+    for constraint in all {
+        for (elements, order) in [(4, Order::Four), (16, Order::Four), (8, Order::Six)] {
+            let section = Stiffness::diagonal([1.0, 1.0, 0.8, 1e4, 1e4, 3e4]).unwrap();
+            let body = Body::new(1.0, section).unwrap().with_constraint(constraint);
+            let push = DeadWrench::force(vector![1.0, 0.5, 0.2]).unwrap();
+            let rod = Rod::clamped(body, Pose::identity()).with_tip_load(push);
+            let solution = Statics { elements, order, ..Statics::default() }.solve(&rod).unwrap();
+            let stable = Stability::Index { unstable: 0, neutral: 0 };
+            assert_eq!(solution.report().stability, stable, "{constraint:?}, {elements} {order:?}");
+        }
+    }
 }

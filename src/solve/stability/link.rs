@@ -1,5 +1,6 @@
 use nalgebra::Matrix6;
 
+use super::eigen::Symmetric;
 use crate::lie::{Pose, Wrench};
 use crate::rod::condense::Transfer;
 use crate::rod::element::frame_change;
@@ -26,6 +27,10 @@ fn scaled(m: &Matrix6<f64>, rows: [f64; 6], columns: [f64; 6]) -> Matrix6<f64> {
     Matrix6::from_fn(|r, c| m[(r, c)] * columns[c] / rows[r])
 }
 
+/// A negative compliance of less than this part of an element's largest, in units of the element, is the error of one that does not give way:
+/// an inextensible element along its axis.
+const RIGID: f64 = 1e-3;
+
 /// One element between conjugate pairs, ζ and μ = δΛ − ½ L(Λ) ζ, in units of the rod.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Link {
@@ -49,6 +54,24 @@ impl Link {
             momentum_zeta: scaled(&(wrench_zeta - half_end * zeta_zeta), momentum, zeta),
             momentum_momentum: scaled(&momentum_momentum, momentum, momentum),
         }
+        .yielding()
+    }
+
+    /// The same behind a small compliance D that makes up for a negative one of the element where it is but an error: ζ → ζ + D μ at its start.
+    fn yielding(mut self) -> Self {
+        let Some(inverse) = self.zeta_zeta.try_inverse() else { return self };
+        let compliance = inverse * self.zeta_momentum;
+        // the length of the element: the distance over which a rotation becomes a displacement
+        let length = self.zeta_zeta.fixed_view::<3, 3>(3, 0).norm() * std::f64::consts::FRAC_1_SQRT_2;
+        let unit = |i: usize| if i < 3 { 1.0 } else { length };
+        let own = Symmetric::part_of(6, |i, j| compliance[(i, j)] / (unit(i) * unit(j))).eigen();
+        let (least, largest) = (own.value[0], own.value[5]);
+        if least < 0.0 && least > -RIGID * largest {
+            let added = Matrix6::from_fn(|i, j| if i == j { -2.0 * least * unit(i) * unit(i) } else { 0.0 });
+            self.zeta_momentum += self.zeta_zeta * added;
+            self.momentum_momentum += self.momentum_zeta * added;
+        }
+        self
     }
 }
 
