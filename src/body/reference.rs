@@ -51,6 +51,9 @@ impl ReferenceShape {
             "nu_y of the reference strain",
             "nu_z of the reference strain",
         ];
+        if let Self::Straight = self {
+            return Ok(Reference::straight());
+        }
         let reference = self.at(s);
         let invalid =
             |quantity, value, requirement| Err(Error::InvalidAt { quantity, value, requirement, s });

@@ -217,7 +217,7 @@ impl<'m, 'r, B: Elastic, const S: usize> Walker<'m, 'r, B, S> {
         if self.mesh.configure(&point.state, &mut configuration).is_ok() {
             report.stability = stability(&self.mesh, &point.state, &configuration, self.buffers, NEUTRAL);
         }
-        let solution = describe(&self.mesh, &point.state.strains, &configuration, report);
+        let solution = describe(&self.mesh, &point.state.strains, &configuration, None, report);
         let (load_factor, slope, arc_length) = (point.factor, point.slope, point.arc_length);
         PathState { load_factor, slope, arc_length, solution }
     }

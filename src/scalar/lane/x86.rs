@@ -32,6 +32,17 @@ pub(super) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     run_portable(kernel)
 }
 
+/// As [`dispatch`], on registers of half the width: what fills no more than those is done in half the time on them.
+#[inline]
+pub(super) fn dispatch_few<K: Kernel>(kernel: K) -> K::Output {
+    let few = is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq");
+    if few && is_x86_feature_detected!("avx512vl") {
+        // SAFETY: the features were just detected.
+        return unsafe { run_half_avx512(kernel) };
+    }
+    dispatch(kernel)
+}
+
 /// Kept out of line: it would only be in the way of the paths that are taken.
 #[inline(never)]
 fn run_portable<K: Kernel>(kernel: K) -> K::Output {
@@ -54,6 +65,12 @@ pub(super) fn run_on_each<K: Kernel + Clone>(kernel: &K, mut visit: impl FnMut(&
 #[target_feature(enable = "avx512f,avx512dq,fma")]
 fn run_avx512<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Avx512>()
+}
+
+/// [`Avx2`], with twice the registers.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+fn run_half_avx512<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Avx2>()
 }
 
 #[target_feature(enable = "avx2,fma")]
