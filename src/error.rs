@@ -58,6 +58,27 @@ pub enum Error {
         /// Section coordinate, m.
         y: f64,
     },
+    /// A section whose equilibrium is no minimum of its energy: it has lost its stability, or too few functions let the search end at a
+    /// saddle.
+    #[error(
+        "the section at s = {s} m is unstable: {mode} lowers its energy (eigenvalue {eigenvalue:.1e} of the largest); try more functions, or a smaller strain"
+    )]
+    SectionUnstable {
+        /// The displacement that weighs most in the direction of lower energy.
+        mode: String,
+        /// The smallest eigenvalue of the Hessian of the energy in the displacement, relative to the largest.
+        eigenvalue: f64,
+        /// Arc length, m.
+        s: f64,
+    },
+    /// Something a scene declares that the solver asked does not know.
+    #[error("{solver} does not know {what}")]
+    NotModelled {
+        /// What was declared.
+        what: &'static str,
+        /// Which solver was asked.
+        solver: &'static str,
+    },
     /// A linear system without a unique solution, for instance a tangent that lost its stiffness.
     #[error("{matrix} is singular at s = {s} m")]
     Singular {
@@ -65,6 +86,20 @@ pub enum Error {
         matrix: &'static str,
         /// Arc length, m.
         s: f64,
+    },
+    /// A rod that its supports do not hold, and no load either.
+    #[error(
+        "the supports leave the rod free to move: {motion} ({x:.3}, {y:.3}, {z:.3}); hold that freedom at one of them"
+    )]
+    FreeToMove {
+        /// `translation along` or `rotation about`.
+        motion: &'static str,
+        /// Direction in space, a unit vector.
+        x: f64,
+        /// Its second component.
+        y: f64,
+        /// Its third component.
+        z: f64,
     },
     /// A bounded iteration that did not reach its tolerance.
     #[error("{what} did not converge in {iterations} iterations; the last correction was {residual}")]

@@ -2,7 +2,7 @@
 //!
 //! hyperrod = **hyper**-dual numbers + **hyper**elastic materials + **rods**. A law is written once, over any dual number. Its
 //! derivatives, summed over the cross-section, are the rod's internal wrench and tangent; with them a geometrically exact
-//! (Cosserat) rod is solved by Newton's method.
+//! (Cosserat) rod is solved by Newton's method, at rest or in motion. New here? The [`guide`] goes step by step.
 //!
 //! ```
 //! use hyperrod::load::{DeadWrench, Gravity};
@@ -129,7 +129,8 @@
 //!    ```
 //!
 //!    where the second is the Young's modulus of the incompressible rubber itself. A compressible law on a rigid section likewise has the axial
-//!    modulus λ + 2μ instead of E = μ(3λ + 2μ)/(λ + μ). On a rigid section, choose the constants for the moduli the rod shall have.
+//!    modulus λ + 2μ instead of E = μ(3λ + 2μ)/(λ + μ). On a rigid section, choose the constants for the moduli the rod shall
+//!    have; a [`Relaxed`](section::Relaxed) one takes those of the material.
 //!
 //! # Layers
 //!
@@ -142,11 +143,13 @@
 //! | [`lie`] | SO(3) and SE(3): exp, log, Ad, ad, dexp; twists, strains and wrenches |
 //! | [`quadrature`] | rules on lines and plane shapes, exact to a stated degree, with positive weights; compression |
 //! | [`material`] | energy densities, the laws at hand, and their derivatives at a point and over a section |
-//! | [`section`] | shapes that may vary along s, composites, resultants; Δξ to U, Ψ, ∂Ψ/∂Δξ and Ψ′; [`check`](section::check) |
-//! | [`body`] | length, section, reference strain, and mass where a scene asks for it |
-//! | [`load`] | gravity through the centre of mass, and tip wrenches, with exact derivatives |
-//! | [`rod`] | the scene, and the collocation element in the strains |
-//! | [`solve`] | Newton's method, the static solver with an accuracy or on a mesh, and its reports |
+//! | [`section`] | shapes that may vary along s, composites, resultants, [sections that relax](section::Relaxed), [actuators](section::Actuator); Δξ to U, Ψ, ∂Ψ/∂Δξ and Ψ′; [`check`](section::check) |
+//! | [`body`] | length, section, reference strain, [fixed strains](body::Constraint); mass and viscosity where a scene asks for them |
+//! | [`load`] | what acts per length or at a point, with exact derivatives, also by closures |
+//! | [`rod`] | the scene with its supports and joints, the strong form, and the collocation element in the strains |
+//! | [`solve`] | statics to an accuracy or on a mesh, stability, paths and critical loads; [dynamics](solve::dynamics) and modes; reports |
+//! | [`output`] | solutions as CSV, VTK and, with the feature `serde`, JSON |
+//! | [`guide`] | chapters that teach the rest |
 //!
 //! # Ladder of models
 //!
@@ -156,21 +159,22 @@
 //!
 //! | choice | rungs |
 //! |---|---|
-//! | section | [`Stiffness`](section::Stiffness): Ψ = K Δξ with numbers you measured; [`Resultants`](section::Resultants): an energy per length in Δξ, such as a [`Ribbon`](section::Ribbon); [`Section`](section::Section): an energy density on a section that stays plane and rigid; [`Composite`](section::Composite): several of them |
+//! | strains | all six; fixed ones by [`Constraint`](body::Constraint): Kirchhoff, planar, any subset, exactly and cheaper (`cargo run --release --example constrained_speed`) |
+//! | section | [`Stiffness`](section::Stiffness): Ψ = K Δξ with numbers you measured; [`Resultants`](section::Resultants): an energy per length in Δξ, such as a [`Ribbon`](section::Ribbon); [`Section`](section::Section): an energy density on a section that stays plane and rigid; [`Composite`](section::Composite): several of them; [`Relaxed`](section::Relaxed): one that contracts, ovalises and warps, by the rungs of [`Warping`](section::Warping) (`cargo run --release --example section_ladder` has their errors) |
 //! | level of the law | [`Isotropic`](material::Isotropic): u(I₁−3, I₂−3, J−1), 2 variables (a² + b² and e); [`Local`](material::Local): u(F), 3; [`Sectional`](material::Sectional): u(Δξ, x, y), 6; one more, s, for Ψ′ on a section that varies. A quadratic law that says it is uniform is integrated once, at rest |
 //! | way to write it | a trait, or [`isotropic!`], [`local!`], [`sectional!`] in closure syntax; [`material::isotropic`] and its siblings: a real closure, which always pays for every variable and misses what the compiler does for a type |
 //! | shape along s | a number; [`Linear`](section::Linear); a closure of s over a dual number; and any shape [`scaled`](section::Shape::scaled), [`rotated`](section::Shape::rotated) or [`shifted`](section::Shape::shifted) |
 //! | reference | straight; a constant ξ*; a function of s ([`ReferenceShape`](body::ReferenceShape)) |
 //! | quadrature | exact for a law with a stated degree; for another, of degree [`Section::DEFAULT_DEGREE`](section::Section::DEFAULT_DEGREE) or what [`with_degree`](section::Section::with_degree) or [`with_tolerance`](section::Section::with_tolerance) asks for |
-//! | element | [`Order`](solve::Order) 2, 4 or 6: one, two or three Gauss stages |
+//! | element | [`Order`](solve::Order) 2, 4 or 6: one, two or three Gauss stages; [`Statics::to`] chooses the mesh for an error |
+//! | time | statics; [`Dynamics`](solve::dynamics::Dynamics) with [`Scheme`](solve::dynamics::Scheme) ESDIRK4(3) or generalised-α, fixed or adaptive steps |
 //! | mass | none; [`with_density`](Body::with_density); [`with_mass_per_length`](Body::with_mass_per_length) |
 //!
 //! # What is not there yet
 //!
-//! * Dynamics and damping. The solver is static.
-//! * Sections that contract, warp or ovalise. A rigid section is too stiff for rubber unless the constants are chosen for it (correction 3).
-//! * Ends other than clamped and free; follower loads, tendons, pressure; rods joined to rods.
-//! * A stability check: the solver finds an equilibrium, and does not say whether it is a stable one. It applies the load in one step.
+//! * Dynamics with supports other than a clamp that may move or a free base, with joints, or with fixed strains: refused by name.
+//! * Rods joined to rods; contact; gradients of a solve in its parameters.
+//! * Thin-walled and re-entrant sections that relax: polynomials serve them poorly.
 
 /// The dual numbers that sizes, angles and references along s are functions of: `use hyperrod::num_dual::{Dual64, DualNum};`
 #[doc(no_inline)]
@@ -179,9 +183,11 @@ pub use num_dual;
 pub mod body;
 /// Errors: which quantity, which value, where.
 pub mod error;
+pub mod guide;
 pub mod lie;
 pub mod load;
 pub mod material;
+pub mod output;
 pub mod quadrature;
 pub mod rod;
 pub mod scalar;

@@ -5,8 +5,20 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// From the ground up.
-const LAYERS: [&str; 10] =
-    ["error", "scalar", "lie", "quadrature", "material", "section", "body", "load", "rod", "solve"];
+const LAYERS: [&str; 12] = [
+    "error",
+    "scalar",
+    "lie",
+    "quadrature",
+    "material",
+    "section",
+    "body",
+    "load",
+    "rod",
+    "solve",
+    "output",
+    "guide",
+];
 
 /// Lines a file may have, tests not counted.
 const LONGEST: usize = 400;

@@ -23,6 +23,7 @@ pub struct Chart {
 struct Curve {
     name: String,
     points: Vec<[f64; 2]>,
+    line: bool,
     markers: bool,
 }
 
@@ -48,16 +49,26 @@ impl Chart {
     }
 
     pub fn line(self, name: &str, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
-        self.curve(name, points, false)
+        self.curve(name, points, [true, false])
     }
 
     /// A line with a dot at every point.
     pub fn dots(self, name: &str, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
-        self.curve(name, points, true)
+        self.curve(name, points, [true, true])
     }
 
-    fn curve(mut self, name: &str, points: impl IntoIterator<Item = [f64; 2]>, markers: bool) -> Self {
-        self.curves.push(Curve { name: name.into(), points: points.into_iter().collect(), markers });
+    /// Dots without a line.
+    pub fn marks(self, name: &str, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
+        self.curve(name, points, [false, true])
+    }
+
+    fn curve(
+        mut self,
+        name: &str,
+        points: impl IntoIterator<Item = [f64; 2]>,
+        [line, markers]: [bool; 2],
+    ) -> Self {
+        self.curves.push(Curve { name: name.into(), points: points.into_iter().collect(), line, markers });
         self
     }
 
@@ -87,12 +98,19 @@ impl Chart {
         for (curve, color) in self.curves.iter().zip(PALETTE.into_iter().cycle()) {
             let drawable = |p: &&[f64; 2]| (0..2).all(|i| p[i].is_finite() && (!self.log[i] || p[i] > 0.0));
             let points: Vec<_> = curve.points.iter().filter(drawable).map(|p| frame.at(*p)).collect();
-            sheet.line(&points, color, 2.0)?;
+            if curve.line {
+                sheet.line(&points, color, 2.0)?;
+            }
             let dots: &[[f64; 2]] = if curve.markers { &points } else { &[] };
             for dot in dots {
                 sheet.disc(*dot, 4.0, color)?;
             }
-            sheet.line(&[legend, [legend[0] + 24.0, legend[1]]], color, 3.0)?;
+            if curve.line {
+                sheet.line(&[legend, [legend[0] + 24.0, legend[1]]], color, 3.0)?;
+            }
+            if curve.markers {
+                sheet.disc([legend[0] + 12.0, legend[1]], 4.0, color)?;
+            }
             sheet.text(&curve.name, [legend[0] + 30.0, legend[1]], [-1, 0], TEXT)?;
             legend[0] += 54.0 + text_width(&curve.name, TEXT);
         }

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::Outcome;
 use super::frame::{Frame, MARGIN};
 use super::scale::Scale;
-use super::sheet::{GREY, INK, Sheet, TEXT};
+use super::sheet::{GREY, INK, Sheet, TEXT, text_width};
 
 /// Width of the box, pixels; its height follows from equal scales.
 const WIDTH: f64 = 640.0;
@@ -18,6 +18,7 @@ const TOP: f64 = 44.0;
 pub struct Drawing {
     title: String,
     labels: [String; 2],
+    legend: Vec<(String, RGBColor)>,
     items: Vec<Item>,
 }
 
@@ -50,7 +51,12 @@ pub fn silhouette(
 
 impl Drawing {
     pub fn new(title: &str, x_label: &str, y_label: &str) -> Self {
-        Self { title: title.into(), labels: [x_label.into(), y_label.into()], items: Vec::new() }
+        Self {
+            title: title.into(),
+            labels: [x_label.into(), y_label.into()],
+            legend: Vec::new(),
+            items: Vec::new(),
+        }
     }
 
     /// A filled outline; it hides what was drawn before.
@@ -60,10 +66,28 @@ impl Drawing {
         self.outline(outline, color, 1.5)
     }
 
+    /// A filled outline without a rim; it hides what was drawn before.
+    pub fn cell(mut self, outline: Vec<[f64; 2]>, color: RGBColor) -> Self {
+        self.items.push(Item::Area { outline, color, opacity: 1.0 });
+        self
+    }
+
+    /// An entry of the legend above the box.
+    pub fn legend(mut self, name: &str, color: RGBColor) -> Self {
+        self.legend.push((name.into(), color));
+        self
+    }
+
     /// An outline drawn faintly: where something was before.
     pub fn ghost(mut self, outline: Vec<[f64; 2]>) -> Self {
         self.items.push(Item::Area { outline: outline.clone(), color: GREY, opacity: 0.12 });
         self.outline(outline, RGBColor(185, 185, 185), 1.0)
+    }
+
+    /// A filled outline without a line around it.
+    pub fn patch(mut self, outline: Vec<[f64; 2]>, color: RGBColor) -> Self {
+        self.items.push(Item::Area { outline, color, opacity: 1.0 });
+        self
     }
 
     fn outline(mut self, mut points: Vec<[f64; 2]>, color: RGBColor, width: f64) -> Self {
@@ -107,7 +131,7 @@ impl Drawing {
         let per_unit = WIDTH / (x[1] - x[0]);
         let height = per_unit * (y[1] - y[0]);
         let [left, right, _, bottom] = MARGIN;
-        let top = TOP;
+        let top = if self.legend.is_empty() { TOP } else { MARGIN[2] };
         let frame = Frame {
             x: Scale::new(x, [left, left + WIDTH], false),
             y: Scale::new(y, [top + height, top], false),
@@ -115,6 +139,7 @@ impl Drawing {
         Sheet::save(path, [left + WIDTH + right, top + height + bottom], |sheet| {
             frame.draw(sheet, [&self.labels[0], &self.labels[1]])?;
             sheet.text(&self.title, [left, 12.0], [-1, -1], 1.2 * TEXT)?;
+            self.draw_legend(sheet, [left, top - 14.0])?;
             for item in &self.items {
                 let px = |points: &[[f64; 2]]| points.iter().map(|p| frame.at(*p)).collect::<Vec<_>>();
                 match item {
@@ -130,6 +155,15 @@ impl Drawing {
             }
             Ok(())
         })
+    }
+
+    fn draw_legend(&self, sheet: &Sheet<'_>, [mut x, y]: [f64; 2]) -> Outcome {
+        for (name, color) in &self.legend {
+            sheet.line(&[[x, y], [x + 24.0, y]], *color, 5.0)?;
+            sheet.text(name, [x + 30.0, y], [-1, 0], TEXT)?;
+            x += 54.0 + text_width(name, TEXT);
+        }
+        Ok(())
     }
 
     /// What the items cover along axis i, with a margin of a twentieth of the larger extent.

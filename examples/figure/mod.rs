@@ -4,12 +4,14 @@
 
 #![allow(dead_code, unused_imports, reason = "each example uses its own part")]
 
+mod animation;
 mod chart;
 mod drawing;
 mod frame;
 mod scale;
 mod sheet;
 
+pub use animation::Animation;
 pub use chart::{Chart, Slope, stack};
 pub use drawing::{Drawing, silhouette};
 pub use sheet::{BLUE, GREEN, GREY, ORANGE, PURPLE, SKY};

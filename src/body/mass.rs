@@ -1,5 +1,8 @@
+use nalgebra::{Matrix3, Matrix6, Vector3};
+
 use super::Body;
 use crate::error::{Error, Result};
+use crate::lie::so3::hat;
 use crate::material::Station;
 use crate::section::{CrossSection, Geometry};
 
@@ -55,6 +58,24 @@ pub trait MassModel<C>: Send + Sync {
     /// # Errors
     /// As [`Geometry::moments`].
     fn line_mass(&self, section: &C, at: &Station) -> Result<LineMass>;
+
+    /// The inertia matrix per length of the reference at a station: see [`HasMass::inertia`].
+    ///
+    /// # Errors
+    /// As [`Geometry::moments`].
+    fn inertia(&self, section: &C, at: &Station) -> Result<Matrix6<f64>>;
+}
+
+/// [[I, c^], [−c^, μ 1]] from the mass per length μ, its first moments c and its second moments (∫x², ∫y², ∫xy).
+fn inertia_matrix(mass: f64, [x, y]: [f64; 2], [xx, yy, xy]: [f64; 3]) -> Matrix6<f64> {
+    let rotary = Matrix3::new(yy, -xy, 0.0, -xy, xx, 0.0, 0.0, 0.0, xx + yy);
+    let first = hat(&Vector3::new(x, y, 0.0));
+    let mut matrix = Matrix6::zeros();
+    matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&rotary);
+    matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&first);
+    matrix.fixed_view_mut::<3, 3>(3, 0).copy_from(&-first);
+    matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&(Matrix3::identity() * mass));
+    matrix
 }
 
 impl<C: Geometry> MassModel<C> for Density {
@@ -76,12 +97,37 @@ impl<C: Geometry> MassModel<C> for Density {
             ],
         })
     }
+
+    /// ```math
+    /// \int \rho\,(x^2, y^2, xy)\, j\,dA
+    /// ```
+    ///
+    /// with j as above.
+    fn inertia(&self, section: &C, at: &Station) -> Result<Matrix6<f64>> {
+        let LineMass { mass, first } = self.line_mass(section, at)?;
+        let m = section.weighted_moments(at.s)?;
+        let xi = &at.reference.twist;
+        let mut second = [m.i_y, m.i_x, m.i_xy].map(|moment| moment * xi.linear.z);
+        let (x_rate, y_rate) = (-xi.angular.y, xi.angular.x);
+        if x_rate != 0.0 || y_rate != 0.0 {
+            let [xxx, xxy, xyy, yyy] = section.weighted_third_moments(at.s)?;
+            second[0] += x_rate * xxx + y_rate * xxy;
+            second[1] += x_rate * xyy + y_rate * yyy;
+            second[2] += x_rate * xxy + y_rate * xyy;
+        }
+        Ok(inertia_matrix(mass, first, second.map(|moment| self.0 * moment)))
+    }
 }
 
 impl<C> MassModel<C> for LineDensity {
     /// On the axis: a section known by its stiffness has no other place for it.
     fn line_mass(&self, _section: &C, _at: &Station) -> Result<LineMass> {
         Ok(LineMass { mass: self.0, first: [0.0; 2] })
+    }
+
+    /// Without rotary inertia: a line of points.
+    fn inertia(&self, _section: &C, _at: &Station) -> Result<Matrix6<f64>> {
+        Ok(inertia_matrix(self.0, [0.0; 2], [0.0; 3]))
     }
 }
 
@@ -105,10 +151,27 @@ pub trait HasMass {
     fn mass_per_length(&self, s: f64) -> Result<f64> {
         Ok(self.line_mass(s)?.mass)
     }
+
+    /// The inertia matrix M per length of the reference at s, so that a slice that moves with the body velocity η has the momentum M η
+    /// and the kinetic energy ½ ηᵀ M η per length.
+    ///
+    /// ```math
+    /// M = \int \rho \begin{bmatrix} -\hat r\hat r & \hat r \\ -\hat r & 1 \end{bmatrix} dV/ds, \qquad r = (x, y, 0)
+    /// ```
+    ///
+    /// Rows and columns (angular, linear): kg m, kg and kg/m.
+    ///
+    /// # Errors
+    /// As [`line_mass`](Self::line_mass).
+    fn inertia(&self, s: f64) -> Result<Matrix6<f64>>;
 }
 
 impl<C: CrossSection, M: MassModel<C>> HasMass for Body<C, M> {
     fn line_mass(&self, s: f64) -> Result<LineMass> {
         self.mass.line_mass(&self.section, &self.station(s))
+    }
+
+    fn inertia(&self, s: f64) -> Result<Matrix6<f64>> {
+        self.mass.inertia(&self.section, &self.station(s))
     }
 }

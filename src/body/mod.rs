@@ -5,11 +5,17 @@
 //!
 //! What lives here knows sections, one after the other along s; it knows no pose, no load and no boundary condition.
 
+mod area;
+mod constraint;
 mod mass;
 mod reference;
+mod viscosity;
 
+pub use area::HasArea;
+pub use constraint::Constraint;
 pub use mass::{Density, HasMass, LineDensity, LineMass, MassModel, Massless};
 pub use reference::ReferenceShape;
+pub use viscosity::{Dissipative, IsotropicViscosity, ViscosityMatrix, ViscosityModel, Viscous};
 
 use num_dual::Dual64;
 
@@ -34,6 +40,7 @@ pub struct Body<C, M = Massless> {
     length: f64,
     section: C,
     reference: ReferenceShape,
+    constraint: Constraint,
     mass: M,
 }
 
@@ -47,7 +54,13 @@ impl<C: CrossSection> Body<C> {
             let quantity = "length of the body";
             return Err(Error::Invalid { quantity, value: length, requirement: "positive and finite" });
         }
-        Ok(Self { length, section, reference: ReferenceShape::Straight, mass: Massless })
+        Ok(Self {
+            length,
+            section,
+            reference: ReferenceShape::Straight,
+            constraint: Constraint::none(),
+            mass: Massless,
+        })
     }
 
     /// The same with a density, kg/m³, of the reference: mass per length ∫ρ dV/ds, which is ρA where the reference is straight.
@@ -69,7 +82,8 @@ impl<C: CrossSection> Body<C> {
     }
 
     fn with_mass<M>(self, mass: M) -> Body<C, M> {
-        Body { length: self.length, section: self.section, reference: self.reference, mass }
+        let Self { length, section, reference, constraint, .. } = self;
+        Body { length, section, reference, constraint, mass }
     }
 }
 
@@ -94,6 +108,11 @@ impl<C: CrossSection, M: Send + Sync> Body<C, M> {
         xi: impl Fn(Dual64) -> Twist<Dual64> + Send + Sync + 'static,
     ) -> Result<Self> {
         Self { reference: ReferenceShape::varying(xi), ..self }.adapted()
+    }
+
+    /// The same without some of its strains. See [`Constraint`].
+    pub fn with_constraint(self, constraint: Constraint) -> Self {
+        Self { constraint, ..self }
     }
 
     /// Checks the reference and makes the section ready for it, at places spread over the rod.
@@ -136,6 +155,16 @@ pub trait Elastic: Send + Sync {
     /// # Errors
     /// As [`CrossSection::respond`].
     fn respond(&self, s: f64, strain: &Strain, request: Request) -> Result<Response>;
+
+    /// The strains that stay at their reference value; what [`respond`](Self::respond) says about them is not used.
+    fn constraint(&self) -> Constraint {
+        Constraint::none()
+    }
+
+    /// Arc lengths at which the response is not smooth in s; see [`CrossSection::breakpoints`].
+    fn breakpoints(&self) -> Vec<f64> {
+        Vec::new()
+    }
 }
 
 impl<C: CrossSection, M: Send + Sync> Elastic for Body<C, M> {
@@ -150,5 +179,13 @@ impl<C: CrossSection, M: Send + Sync> Elastic for Body<C, M> {
     fn respond(&self, s: f64, strain: &Strain, request: Request) -> Result<Response> {
         let station = Station { s, reference: self.reference.checked(s)? };
         self.section.respond(&station, strain, request)
+    }
+
+    fn constraint(&self) -> Constraint {
+        self.constraint
+    }
+
+    fn breakpoints(&self) -> Vec<f64> {
+        self.section.breakpoints()
     }
 }

@@ -11,6 +11,8 @@ mod coefficients;
 mod map;
 mod pose;
 pub mod se3;
+#[cfg(feature = "serde")]
+mod serialize;
 pub mod so3;
 mod vectors;
 

@@ -1,8 +1,12 @@
 use approx::{AbsDiffEq, RelativeEq};
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
+use num_dual::Dual2_64;
 use std::ops::Mul;
 
-use super::{Twist, TwistMap, se3, so3::hat};
+use super::{
+    Twist, TwistMap, se3,
+    so3::{hat, vee},
+};
 use crate::scalar::Scalar;
 
 /// A rigid placement g = (R, p) in SE(3): a point r of the section sits at p + R r in space.
@@ -69,6 +73,24 @@ impl Pose<f64> {
     /// The rotation as a unit quaternion (body to space).
     pub fn quaternion(&self) -> UnitQuaternion<f64> {
         UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(self.rotation))
+    }
+}
+
+impl Pose<Dual2_64> {
+    /// A pose that is a function of time, as (g, η, η̇): the pose, its body velocity and its body acceleration.
+    ///
+    /// ```math
+    /// \hat\eta = g^{-1}\dot g, \qquad \dot{\hat\eta} = g^{-1}\ddot g - \hat\eta\hat\eta
+    /// ```
+    pub fn motion(&self) -> (Pose, Twist, Twist) {
+        let (rotation, position) = (self.rotation.map(|d| d.re), self.position.map(|d| d.re));
+        let turned = rotation.tr_mul(&self.rotation.map(|d| d.v1));
+        let velocity = Twist::new(vee(&turned), rotation.tr_mul(&self.position.map(|d| d.v1)));
+        let acceleration = Twist::new(
+            vee(&(rotation.tr_mul(&self.rotation.map(|d| d.v2)) - turned * turned)),
+            rotation.tr_mul(&self.position.map(|d| d.v2)) - velocity.angular.cross(&velocity.linear),
+        );
+        (Pose::new(rotation, position), velocity, acceleration)
     }
 }
 

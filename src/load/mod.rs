@@ -1,15 +1,43 @@
 //! Loads: what acts on a rod per length or at its tip, with exact derivatives.
 //!
-//! A distributed load is a [`Load`] on bodies that have what it needs: [`Gravity`] is one on bodies with a mass. A [`TipLoad`] acts at the
-//! free end. Both are given in the body frame of the section they act on, with their derivative in a small displacement ζ of that frame.
+//! A distributed load is a [`Load`] on bodies that have what it needs; a [`TipLoad`] acts at the free end. Both are given in the body frame of
+//! the section they act on, with their derivative in a small displacement ζ of that frame.
+//!
+//! | load | acts on | needs of the body | potential |
+//! |---|---|---|---|
+//! | [`Gravity`] | length | [a mass](crate::body::HasMass) | yes |
+//! | [`Buoyancy`] | length | [an area](crate::body::HasArea) | yes |
+//! | [`DeadLoad`], [`DeadWrench`] | length, tip | | of the force |
+//! | [`Payload`] | tip | | yes |
+//! | [`FollowerLoad`], [`FollowerWrench`] | length, tip | | no |
+//! | [`ElasticFoundation`] | length | | yes |
+//! | [`distributed`], [`distributed_on`], [`at_tip`]: a closure that gives the wrench | length, tip | what it asks for | no |
+//! | [`potential`], [`potential_at_tip`]: a closure that gives the energy | length, tip | | yes |
+//!
+//! What acts by the strain of the rod, as tendons and pressure chambers, is an [`Actuator`](crate::section::Actuator) of the section.
 //!
 //! What lives here knows bodies and poses; it knows no element and no solver.
 
+mod buoyancy;
+mod closure;
 mod dead_wrench;
+mod distributed;
+mod follower_wrench;
+mod foundation;
 mod gravity;
+mod payload;
 
+pub use buoyancy::Buoyancy;
+pub use closure::{
+    BodyLoadClosure, LoadClosure, LoadDual, PotentialClosure, PotentialDual, at_tip, distributed,
+    distributed_on, potential, potential_at_tip,
+};
 pub use dead_wrench::DeadWrench;
+pub use distributed::{DeadLoad, FollowerLoad, WrenchProfile};
+pub use follower_wrench::FollowerWrench;
+pub use foundation::ElasticFoundation;
 pub use gravity::Gravity;
+pub use payload::Payload;
 
 use nalgebra::Matrix6;
 
@@ -28,6 +56,14 @@ pub struct LoadWrench {
 }
 
 /// A load per length of the reference on bodies of type `B`.
+///
+/// A load of your own says in its `impl` what it needs of the body: `impl<B: HasMass> Load<B> for Mine`, with one of the capabilities of
+/// [`body`](crate::body) or a trait of your own that you implement for your bodies.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a load per length on `{B}`",
+    label = "a load per length is needed here",
+    note = "loads are in `hyperrod::load`; one on the tip alone goes to `with_tip_load`; one of your own implements `Load`, or is a closure in `load::distributed`"
+)]
 pub trait Load<B: ?Sized>: Send + Sync {
     /// The load at s on a section at `pose`: N (moment per length) and N/m.
     ///
@@ -37,6 +73,11 @@ pub trait Load<B: ?Sized>: Send + Sync {
 }
 
 /// A wrench on the tip of the rod.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a load on a point of a rod",
+    label = "a load on a point is needed here",
+    note = "loads are in `hyperrod::load`; one per length goes to `with_load`; one of your own implements `TipLoad`, or is a closure in `load::at_tip`"
+)]
 pub trait TipLoad: Send + Sync {
     /// The load on a tip at `pose`: N m and N.
     ///
@@ -44,3 +85,8 @@ pub trait TipLoad: Send + Sync {
     /// Where the load is not defined.
     fn at(&self, pose: &Pose) -> Result<LoadWrench>;
 }
+
+/// The example of the decision, compiled as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/decisions/010-what-a-load-needs-of-a-body.md")]
+struct Decision;

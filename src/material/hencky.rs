@@ -37,7 +37,7 @@ impl Hencky {
 impl Local for Hencky {
     #[inline(always)]
     fn energy_density<D: Scalar>(&self, f: &Deformation<D>, _at: &Point<D>) -> D {
-        let ln_j = f.gamma().z.ln_1p();
+        let ln_j = f.j().ln_1p();
         f.log_strain_squared() * self.mu + ln_j * ln_j * (0.5 * self.lambda)
     }
 

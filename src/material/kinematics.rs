@@ -1,5 +1,6 @@
 use nalgebra::{Matrix3, Vector3};
 
+use super::spectral;
 use crate::lie::Strain;
 use crate::scalar::{Scalar, arsinh_sqrt_squared, cosh_multiple_m1, exp_m1_minus_x, pow_1p_m1};
 
@@ -24,23 +25,33 @@ impl Point {
     }
 }
 
-/// The deformation of a point of a rigid section, F = I + γ ⊗ e₃ in the frame of the section.
+/// The deformation of a point, F = I + H in the frame of the section; H = γ ⊗ e₃ on a rigid section.
 ///
 /// ```math
-/// \gamma = \Delta\nu + \Delta\omega \times (x, y, 0) = (a, b, e), \qquad J - 1 = e .
+/// \gamma = \Delta\nu + \Delta\omega \times (x, y, 0) = (a, b, e), \qquad J - 1 = e \quad\text{(rigid section)}.
 /// ```
 ///
-/// It carries γ, never F: forming F = I + γ ⊗ e₃ first would lose the digits of a small strain.
+/// On a section that [relaxes](crate::section::Relaxed) the other two columns of H are there as well: a law that shall serve both asks
+/// for [`j`](Self::j) rather than e. It carries H, never F: forming F = I + H first would lose the digits of a small strain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deformation<D = f64> {
     gamma: Vector3<D>,
+    /// The first two columns of H; `None` on a rigid section, where they vanish.
+    sides: Option<[Vector3<D>; 2]>,
 }
 
 impl<D: Scalar> Deformation<D> {
     /// From the third column γ of F − I.
     #[inline(always)]
     pub fn from_gamma(gamma: Vector3<D>) -> Self {
-        Self { gamma }
+        Self { gamma, sides: None }
+    }
+
+    /// From all of H = F − I.
+    #[inline(always)]
+    pub fn from_gradient(h: &Matrix3<D>) -> Self {
+        let column = |k: usize| Vector3::new(h[(0, k)], h[(1, k)], h[(2, k)]);
+        Self { gamma: column(2), sides: Some([column(0), column(1)]) }
     }
 
     /// Of the point (x, y) of a rigid section with strain Δξ about a straight reference.
@@ -53,6 +64,7 @@ impl<D: Scalar> Deformation<D> {
                 nu.y + omega.z * at.x,
                 nu.z + omega.x * at.y - omega.y * at.x,
             ),
+            sides: None,
         }
     }
 
@@ -62,18 +74,30 @@ impl<D: Scalar> Deformation<D> {
         self.gamma
     }
 
-    /// H = F − I = γ ⊗ e₃.
+    /// H = F − I: γ ⊗ e₃ on a rigid section.
     pub fn gradient(&self) -> Matrix3<D> {
-        let mut h = Matrix3::from_element(D::zero());
-        h.set_column(2, &self.gamma);
-        h
+        let zero = Vector3::from_element(D::zero());
+        let [first, second] = self.sides.unwrap_or([zero, zero]);
+        Matrix3::from_columns(&[first, second, self.gamma])
+    }
+
+    /// J − 1 = det F − 1: e on a rigid section.
+    #[inline(always)]
+    pub fn j(&self) -> D {
+        match self.sides {
+            None => self.gamma.z,
+            Some(_) => self.invariants().j(),
+        }
     }
 
     /// The invariants of C = FᵀF, as deviations from rest.
     #[inline(always)]
     pub fn invariants(&self) -> Invariants<D> {
         let [a, b, e] = [self.gamma.x, self.gamma.y, self.gamma.z];
-        Invariants::from_shear_and_stretch(a * a + b * b, e)
+        match self.sides {
+            None => Invariants::from_shear_and_stretch(a * a + b * b, e),
+            Some(_) => Invariants::of_gradient(&self.gradient()),
+        }
     }
 
     /// Σ λᵢ^α − 3 − α ln J of the principal stretches, of second order in the strain and smooth where stretches coalesce.
@@ -88,6 +112,9 @@ impl<D: Scalar> Deformation<D> {
     /// No root is taken of anything that vanishes at rest: the limit of equal stretches is exact, with its derivatives.
     #[inline(always)]
     pub fn stretch_powers_excess(&self, alpha: f64) -> D {
+        if self.sides.is_some() {
+            return spectral::stretch_powers_excess(&self.gradient(), alpha);
+        }
         let half_power_log = self.gamma.z.ln_1p() * (0.5 * alpha);
         let split = cosh_multiple_m1(self.sinh_squared(), alpha);
         (exp_m1_minus_x(half_power_log) + half_power_log.exp() * split) * 2.0
@@ -98,6 +125,9 @@ impl<D: Scalar> Deformation<D> {
     /// See [`stretch_powers_excess`](Self::stretch_powers_excess).
     #[inline(always)]
     pub fn log_strain_squared(&self) -> D {
+        if self.sides.is_some() {
+            return spectral::log_strain_squared(&self.gradient());
+        }
         let ln_j = self.gamma.z.ln_1p();
         ln_j * ln_j * 0.5 + arsinh_sqrt_squared(self.sinh_squared()) * 2.0
     }
@@ -110,10 +140,16 @@ impl<D: Scalar> Deformation<D> {
     /// |F d|² − |d|² for a direction d (a unit vector for a fibre): twice its Green strain, I₄ − 1.
     ///
     /// ```math
-    /// |F d|^2 - |d|^2 = d_z\,(2\, d\cdot\gamma + d_z\, \gamma\cdot\gamma)
+    /// |F d|^2 - |d|^2 = 2\, d\cdot H d + H d\cdot H d = d_z\,(2\, d\cdot\gamma + d_z\, \gamma\cdot\gamma)
     /// ```
+    ///
+    /// where the second form is that of a rigid section.
     #[inline(always)]
     pub fn stretch_squared_minus_one(&self, direction: &Vector3<D>) -> D {
+        if self.sides.is_some() {
+            let moved = self.gradient() * direction;
+            return direction.dot(&moved) * 2.0 + moved.dot(&moved);
+        }
         direction.z * (direction.dot(&self.gamma) * 2.0 + direction.z * self.gamma.dot(&self.gamma))
     }
 }
@@ -141,6 +177,45 @@ impl<D: Scalar> Invariants<D> {
     pub fn from_shear_and_stretch(s: D, e: D) -> Self {
         let e_squared = e * e;
         Self { i1_excess: s + e_squared, i2_excess: s + e_squared * 2.0, j: e }
+    }
+
+    /// From I₁ − 3 − 2(J − 1), I₂ − 3 − 4(J − 1) and J − 1, each computed without cancellation.
+    #[inline(always)]
+    pub fn from_excess(i1_excess: D, i2_excess: D, j: D) -> Self {
+        Self { i1_excess, i2_excess, j }
+    }
+
+    /// Of any deformation, from H = F − I, without cancellation: with K = cof F − I = (tr H) I − Hᵀ + cof H,
+    ///
+    /// ```math
+    /// J - 1 = \operatorname{tr} H + \operatorname{tr} \operatorname{cof} H + \det H, \quad
+    /// I_1 - 3 - 2(J-1) = H:H - 2 \operatorname{tr}\operatorname{cof} H - 2 \det H, \quad
+    /// I_2 - 3 - 4(J-1) = K:K - 2 \operatorname{tr}\operatorname{cof} H - 4 \det H .
+    /// ```
+    pub fn of_gradient(h: &Matrix3<D>) -> Self {
+        let trace = h[(0, 0)] + h[(1, 1)] + h[(2, 2)];
+        let minor = |i: usize, k: usize| {
+            let ([a, b], [c, d]) = ([(i + 1) % 3, (i + 2) % 3], [(k + 1) % 3, (k + 2) % 3]);
+            h[(a, c)] * h[(b, d)] - h[(a, d)] * h[(b, c)]
+        };
+        let cofactor = Matrix3::from_fn(minor);
+        let second = cofactor[(0, 0)] + cofactor[(1, 1)] + cofactor[(2, 2)];
+        let det = (0..3).fold(D::zero(), |sum, k| sum + h[(0, k)] * cofactor[(0, k)]);
+        let (mut h_squared, mut k_squared) = (D::zero(), D::zero());
+        for i in 0..3 {
+            for k in 0..3 {
+                let identity = if i == k { trace } else { D::zero() };
+                let change = identity - h[(k, i)] + cofactor[(i, k)];
+                h_squared += h[(i, k)] * h[(i, k)];
+                k_squared += change * change;
+            }
+        }
+        let twice = (second + det) * 2.0;
+        Self {
+            i1_excess: h_squared - twice,
+            i2_excess: k_squared - twice - det * 2.0,
+            j: trace + second + det,
+        }
     }
 
     /// I₁ − 3.

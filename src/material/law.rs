@@ -1,4 +1,5 @@
 use super::differentiate::{Fibre, FibreResponse, Level, isotropic_response, local_response};
+use super::gradient::{GradientResponse, GradientSite, isotropic_gradient_response, local_gradient_response};
 use super::integrate::Site;
 use super::kinematics::{Deformation, Invariants, Point};
 use super::response::{Points, Request, Response, Station};
@@ -131,6 +132,14 @@ pub trait Local: Send + Sync {
     {
         task.perform(self)
     }
+
+    /// The derivatives at a block of points whose whole deformation gradient is known. The library's business, overridden by the
+    /// isotropic level.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn respond_to_gradient<L: Lane, O: Level>(&self, site: &GradientSite<L>) -> GradientResponse<L> {
+        local_gradient_response::<Self, L, O>(self, site)
+    }
 }
 
 impl<M: Isotropic> Local for M {
@@ -158,6 +167,11 @@ impl<M: Isotropic> Local for M {
 
     fn perform(&self, task: &mut Task<'_>) -> Result<()> {
         Isotropic::perform(self, task)
+    }
+
+    #[inline(always)]
+    fn respond_to_gradient<L: Lane, O: Level>(&self, site: &GradientSite<L>) -> GradientResponse<L> {
+        isotropic_gradient_response::<Self, L, O>(self, site)
     }
 }
 

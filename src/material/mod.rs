@@ -31,7 +31,7 @@
 //!
 //! **Constants from a datasheet** describe a solid that is free to contract; a rigid section is not, and bends with the E of the table.
 //! With the bulk modulus of rubber (κ or λ near 1 GPa) a rod comes out a thousand times too stiff. For the E = 3G of an incompressible rubber,
-//! take λ = G, or κ = 5G/3.
+//! take λ = G, or κ = 5G/3; or take the constants as they are on a section that [relaxes](crate::section::Relaxed).
 //!
 #![doc = include_str!("../../docs/material-table.md")]
 //!
@@ -53,6 +53,7 @@ mod fibre_direction;
 mod fibres;
 mod fung;
 mod gent;
+mod gradient;
 mod hencky;
 mod holzapfel_gasser_ogden;
 mod integrate;
@@ -71,9 +72,11 @@ mod saint_venant_kirchhoff;
 mod scratch;
 mod sectional;
 mod span;
+mod spectral;
 mod stress_free;
 mod sums;
 mod task;
+mod walk;
 mod yeoh;
 
 #[doc(hidden)]
@@ -91,6 +94,9 @@ pub use fibre_direction::{FibreDirection, Helix, Straight, Twisted};
 pub use fibres::Fibres;
 pub use fung::Fung;
 pub use gent::Gent;
+pub(crate) use gradient::{GradientBatch, GradientLaw, GradientState, packed};
+#[doc(hidden)]
+pub use gradient::{GradientResponse, GradientSite};
 pub use hencky::Hencky;
 pub use holzapfel_gasser_ogden::HolzapfelGasserOgden;
 pub use isochoric_neo_hookean::IsochoricNeoHookean;

@@ -69,7 +69,7 @@ impl Ogden {
 impl Local for Ogden {
     #[inline(always)]
     fn energy_density<D: Scalar>(&self, f: &Deformation<D>, _at: &Point<D>) -> D {
-        let ln_j = f.gamma().z.ln_1p();
+        let ln_j = f.j().ln_1p();
         self.terms.iter().fold(ln_j * ln_j * (0.5 * self.lambda), |sum, &(mu, alpha)| {
             sum + f.stretch_powers_excess(alpha) * (mu / alpha)
         })

@@ -1,18 +1,21 @@
 //! The linearised element with its stage strains eliminated: what the chain of elements is made of.
 
-use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, SMatrix, Vector6};
 
 use super::collocation::Collocation;
 use super::element::{ElementState, Linearisation, Variations};
-use super::stages::{solve_general, solve_rows};
-use crate::lie::{Strain, TwistMap, Wrench, so3::hat};
+use super::load_terms::{Ends, LoadTerms};
+use super::planar;
+use super::stage_system::{StageSystem, cross, inverse, inverse_of_free};
+use super::stages::solve_general;
+use crate::lie::{Strain, TwistMap, Wrench};
 
 /// Columns of everything that depends on the element's first node: δΛ_i, then 1, then ζ_i.
 ///
 /// Without distributed loads nothing depends on ζ_i (a wrench does not see where its rod is), and the first seven columns are all.
-const WRENCH: usize = 0;
-const ONE: usize = 6;
-const ZETA: usize = 7;
+pub(super) const WRENCH: usize = 0;
+pub(super) const ONE: usize = 6;
+pub(super) const ZETA: usize = 7;
 pub(super) const COLUMNS: usize = 13;
 
 /// ζ_{i+1} and δΛ_{i+1} from ζ_i and δΛ_i.
@@ -51,9 +54,24 @@ impl<const S: usize> Condensed<S> {
 
     /// Linearises and eliminates. `None` if the stage matrix is singular.
     pub(crate) fn fill(&mut self, table: &Collocation<S>, state: &ElementState<'_, S>) -> Option<()> {
-        let done = match state.load {
-            None => self.eliminate::<LOADLESS>(table, state),
-            Some(_) => self.eliminate::<COLUMNS>(table, state),
+        if planar::holds(&state.constraint, &state.xi) {
+            let done = match state.load {
+                None => self.fill_in_plane(table, state),
+                Some(loads) if loads.iter().all(planar::acts_in_plane) => {
+                    self.fill_loaded_in_plane(table, state, loads)
+                }
+                Some(_) => None,
+            };
+            if done.is_some() {
+                return Some(());
+            }
+        }
+        let stiff = state.constraint.fixed()[3..] == [true; 3];
+        let done = match (state.load, stiff) {
+            (None, false) => self.eliminate::<LOADLESS, true>(table, state),
+            (None, true) => self.eliminate::<LOADLESS, false>(table, state),
+            (Some(_), false) => self.eliminate::<COLUMNS, true>(table, state),
+            (Some(_), true) => self.eliminate::<COLUMNS, false>(table, state),
         };
         match done {
             Some(()) => Some(()),
@@ -65,7 +83,7 @@ impl<const S: usize> Condensed<S> {
     /// a load depends on where it acts.
     pub(crate) fn fill_general(&mut self, table: &Collocation<S>, state: &ElementState<'_, S>) -> Option<()> {
         let element = Linearisation::new(table, state);
-        self.strain = solve_general(&element)?;
+        self.strain = solve_general(&element, &state.constraint.fixed())?;
         self.loaded = true;
         let t = &mut self.transfer;
         (t.zeta_from_zeta, t.zeta_from_wrench) = (element.end_adjoint, Matrix6::zeros());
@@ -96,20 +114,56 @@ impl<const S: usize> Condensed<S> {
         })
     }
 
+    /// Takes the strains by their columns: `of(k, c)` is the c-th of N of stage k, and where it goes; the others are zero.
+    #[inline(always)]
+    pub(super) fn set_strains<const N: usize>(
+        &mut self,
+        loaded: bool,
+        of: impl Fn(usize, usize) -> (usize, [f64; 6]),
+    ) {
+        self.loaded = loaded;
+        for (k, strain) in self.strain.iter_mut().enumerate() {
+            if loaded {
+                strain.fill(0.0);
+            } else {
+                strain.fixed_columns_mut::<LOADLESS>(WRENCH).fill(0.0);
+            }
+            for c in 0..N {
+                let (column, value) = of(k, c);
+                strain.set_column(column, &value.into());
+            }
+        }
+    }
+
+    /// δξ at the stages by a displacement and a change of wrench at the element's first node alone.
+    pub(crate) fn strain_of_node(&self, zeta: &Vector6<f64>, wrench: &Vector6<f64>) -> [Strain; S] {
+        let nothing = self.strain_step(&Vector6::zeros(), &Vector6::zeros());
+        let all = self.strain_step(zeta, wrench);
+        std::array::from_fn(|k| all[k] - nothing[k])
+    }
+
     /// Shear and extension first, a 3×3 inverse at every stage, then bending and torsion of all stages together. `None` where that is not
     /// safe or not possible.
+    ///
+    /// A strain that is fixed has no compliance: K_νν⁻¹ has zeros there, and all of them where neither shear nor extension is free
+    /// (`SOFT` is false).
     #[inline(always)]
-    fn eliminate<const C: usize>(
+    fn eliminate<const C: usize, const SOFT: bool>(
         &mut self,
         table: &Collocation<S>,
         state: &ElementState<'_, S>,
     ) -> Option<()> {
         let variations = Variations::new(table, &state.xi, state.h);
+        let fixed = state.constraint.fixed();
         let mut flexibility = [Matrix3::zeros(); S];
-        for k in 0..S {
-            flexibility[k] = inverse(&state.response[k].tangent.fixed_view::<3, 3>(3, 3).into())?;
+        if SOFT {
+            for k in 0..S {
+                let k_nu = state.response[k].tangent.fixed_view::<3, 3>(3, 3).into();
+                flexibility[k] =
+                    if fixed[3..] == [false; 3] { inverse(&k_nu)? } else { inverse_of_free(k_nu, &fixed)? };
+            }
         }
-        let mut system = StageSystem::<S, C>::new(state, &variations);
+        let mut system = StageSystem::<S, C>::new::<SOFT>(state, &variations);
         let mut ends = Ends::<S>::default();
         if let Some(loads) = state.load {
             let from_zeta =
@@ -118,19 +172,19 @@ impl<const S: usize> Condensed<S> {
         } else {
             self.transfer.wrench_from_zeta = Matrix6::zeros();
         }
-        let [angular, linear] = system.solve(&flexibility)?;
+        system.solve::<SOFT>(&flexibility, &fixed)?;
         for k in 0..S {
-            self.strain[k].fixed_view_mut::<3, C>(0, 0).copy_from(&angular[k]);
-            self.strain[k].fixed_view_mut::<3, C>(3, 0).copy_from(&linear[k]);
+            self.strain[k].fixed_view_mut::<3, C>(0, 0).copy_from(&system.angular_rhs[k]);
+            self.strain[k].fixed_view_mut::<3, C>(3, 0).copy_from(&system.linear_rhs[k]);
         }
         self.loaded = C == COLUMNS;
-        self.transfer_from::<C>(state, &variations.end, &ends, &angular, &linear);
+        self.transfer_from::<C, SOFT>(state, &variations.end, &ends, &system.angular_rhs, &system.linear_rhs);
         Some(())
     }
 
     /// ζ_{i+1} = Ad_e⁻¹ ζ_i + y_e, δΛ_{i+1} = L(Λ_{i+1}) y_e + Ad_eᵀ δΛ_i − loads.
     #[inline(always)]
-    fn transfer_from<const C: usize>(
+    fn transfer_from<const C: usize, const SOFT: bool>(
         &mut self,
         state: &ElementState<'_, S>,
         end: &[TwistMap; S],
@@ -141,7 +195,10 @@ impl<const S: usize> Condensed<S> {
         let (mut w, mut v) = (SMatrix::<f64, 3, C>::zeros(), SMatrix::<f64, 3, C>::zeros());
         for l in 0..S {
             w += end[l].diagonal * angular[l];
-            v += end[l].lower * angular[l] + end[l].diagonal * linear[l];
+            v += end[l].lower * angular[l];
+            if SOFT {
+                v += end[l].diagonal * linear[l];
+            }
         }
         let Wrench { moment, force } = state.wrench_at_end;
         let mut m = cross(moment, &w) + cross(force, &v);
@@ -178,207 +235,3 @@ impl<const S: usize> Condensed<S> {
 
 /// Columns without ζ_i.
 const LOADLESS: usize = 7;
-
-/// v × every column.
-#[inline(always)]
-fn cross<const C: usize>(v: &Vector3<f64>, m: &SMatrix<f64, 3, C>) -> SMatrix<f64, 3, C> {
-    let mut result = SMatrix::<f64, 3, C>::zeros();
-    for c in 0..C {
-        let (x, y, z) = (m[(0, c)], m[(1, c)], m[(2, c)]);
-        result[(0, c)] = v.y * z - v.z * y;
-        result[(1, c)] = v.z * x - v.x * z;
-        result[(2, c)] = v.x * y - v.y * x;
-    }
-    result
-}
-
-/// The inverse of a positive definite stiffness against shear and extension; `None` where it is not clearly definite.
-#[inline(always)]
-fn inverse(k: &Matrix3<f64>) -> Option<Matrix3<f64>> {
-    /// Of the determinant relative to the product of the diagonal: the cofactors keep six digits.
-    const LEAST: f64 = 1e-10;
-    // scaled, so that EA = 1e150 is still fine
-    let scale = 1.0 / (k[(0, 0)].abs() + k[(1, 1)].abs() + k[(2, 2)].abs());
-    let k = k * scale;
-    let (c0, c1, c2) = (k.column(0).into_owned(), k.column(1).into_owned(), k.column(2).into_owned());
-    let cofactors = [c1.cross(&c2), c2.cross(&c0), c0.cross(&c1)];
-    let determinant = c0.dot(&cofactors[0]);
-    let diagonal = k[(0, 0)] * k[(1, 1)] * k[(2, 2)];
-    let definite = k[(0, 0)] > 0.0 && k[(1, 1)] > 0.0 && determinant > LEAST * diagonal && diagonal > 0.0;
-    if !(definite && scale > 0.0) {
-        return None;
-    }
-    Some(Matrix3::from_columns(&cofactors).transpose() * (scale / determinant))
-}
-
-/// The stage equations, rows (angular, linear) and unknowns (δω, δν); the block linear–linear is K_νν alone.
-struct StageSystem<const S: usize, const C: usize> {
-    angular_angular: [[Matrix3<f64>; S]; S],
-    angular_linear: [[Matrix3<f64>; S]; S],
-    linear_angular: [[Matrix3<f64>; S]; S],
-    angular_rhs: [SMatrix<f64, 3, C>; S],
-    linear_rhs: [SMatrix<f64, 3, C>; S],
-}
-
-impl<const S: usize, const C: usize> StageSystem<S, C> {
-    /// K_k δξ_k − L(Λ_k) Σ_l B_kl δξ_l = −r_k + Ad_kᵀ δΛ_i.
-    #[inline(always)]
-    fn new(state: &ElementState<'_, S>, variations: &Variations<S>) -> Self {
-        let zero = [[Matrix3::zeros(); S]; S];
-        let mut system = Self {
-            angular_angular: zero,
-            angular_linear: zero,
-            linear_angular: zero,
-            angular_rhs: [SMatrix::zeros(); S],
-            linear_rhs: [SMatrix::zeros(); S],
-        };
-        for k in 0..S {
-            let Wrench { moment, force } = &state.stage_wrench[k];
-            for l in 0..S {
-                let map = &variations.stage[k][l];
-                let by_force = cross(force, &map.diagonal);
-                system.angular_angular[k][l] = -(cross(moment, &map.diagonal) + cross(force, &map.lower));
-                system.angular_linear[k][l] = -by_force;
-                system.linear_angular[k][l] = -by_force;
-            }
-            let tangent = &state.response[k].tangent;
-            system.angular_angular[k][k] += tangent.fixed_view::<3, 3>(0, 0);
-            system.angular_linear[k][k] += tangent.fixed_view::<3, 3>(0, 3);
-            system.linear_angular[k][k] += tangent.fixed_view::<3, 3>(3, 0);
-
-            // Ad_kᵀ = [[Rᵀ, −Rᵀ p^], [0, Rᵀ]]
-            let (pose, residual) = (&state.kinematics.stage[k], state.residual(k));
-            let transpose = pose.rotation.transpose();
-            let (angular, linear) = (&mut system.angular_rhs[k], &mut system.linear_rhs[k]);
-            angular.fixed_view_mut::<3, 3>(0, WRENCH).copy_from(&transpose);
-            let lever = cross(&pose.position, &pose.rotation).transpose();
-            angular.fixed_view_mut::<3, 3>(0, WRENCH + 3).copy_from(&lever);
-            angular.fixed_view_mut::<3, 1>(0, ONE).copy_from(&-residual.moment);
-            linear.fixed_view_mut::<3, 3>(0, WRENCH + 3).copy_from(&transpose);
-            linear.fixed_view_mut::<3, 1>(0, ONE).copy_from(&-residual.force);
-        }
-        system
-    }
-
-    /// (δω, δν) of all stages.
-    #[inline(always)]
-    fn solve(&self, flexibility: &[Matrix3<f64>; S]) -> Option<[[SMatrix<f64, 3, C>; S]; 2]> {
-        let mut matrix = [[Matrix3::zeros(); S]; S];
-        let mut rhs = self.angular_rhs;
-        for k in 0..S {
-            matrix[k] = self.angular_angular[k];
-            for l in 0..S {
-                let factor = self.angular_linear[k][l] * flexibility[l];
-                for m in 0..S {
-                    matrix[k][m] -= factor * self.linear_angular[l][m];
-                }
-                rhs[k] -= factor * self.linear_rhs[l];
-            }
-        }
-        let angular = solve_rows(&matrix, &rhs)?;
-        let mut linear = self.linear_rhs;
-        for k in 0..S {
-            for l in 0..S {
-                linear[k] -= self.linear_angular[k][l] * angular[l];
-            }
-            linear[k] = flexibility[k] * linear[k];
-        }
-        Some([angular, linear])
-    }
-}
-
-/// What the loads add to δΛ_{i+1}: minus blocks (angular–angular, angular–linear, linear–angular) times (δω_l, δν_l).
-struct Ends<const S: usize> {
-    blocks: [[Matrix3<f64>; 3]; S],
-}
-
-impl<const S: usize> Default for Ends<S> {
-    fn default() -> Self {
-        Self { blocks: [[Matrix3::zeros(); 3]; S] }
-    }
-}
-
-/// δF_l = Σ_m g_lm δξ_m + e_l ζ_i: the loads of the stages brought to node i.
-struct LoadTerms<const S: usize> {
-    /// G_l B_lm, blocks as in [`Ends`].
-    g: [[[Matrix3<f64>; 3]; S]; S],
-    e: [Matrix6<f64>; S],
-}
-
-impl<const S: usize> LoadTerms<S> {
-    /// G_l = Ad_l⁻ᵀ(D_l − L(f̄_l)), e_l = Ad_l⁻ᵀ D_l Ad_l⁻¹; `None` for a load whose force depends on where it acts.
-    fn new(
-        state: &ElementState<'_, S>,
-        loads: &[crate::load::LoadWrench; S],
-        variations: &Variations<S>,
-    ) -> Option<Self> {
-        let mut terms = Self { g: [[[Matrix3::zeros(); 3]; S]; S], e: [Matrix6::zeros(); S] };
-        for (l, load) in loads.iter().enumerate() {
-            let d = |r: usize, c: usize| load.tangent.fixed_view::<3, 3>(r, c).into_owned();
-            if d(3, 3) != Matrix3::zeros() {
-                return None;
-            }
-            let pose = &state.kinematics.stage[l];
-            let (r, force) = (&pose.rotation, hat(&load.wrench.force));
-            let g21 = r * (d(3, 0) - force);
-            let g11 = r * (d(0, 0) - hat(&load.wrench.moment)) + cross(&pose.position, &g21);
-            let g12 = r * (d(0, 3) - force);
-            for m in 0..S {
-                let map = &variations.stage[l][m];
-                terms.g[l][m] =
-                    [g11 * map.diagonal + g12 * map.lower, g12 * map.diagonal, g21 * map.diagonal];
-            }
-            let inverse = pose.adjoint_inverse().to_matrix();
-            terms.e[l] = inverse.transpose() * load.tangent * inverse;
-        }
-        Some(terms)
-    }
-
-    /// Adds Ad_kᵀ h Σ a_kl δF_l to the stages, and returns what of −Ad_eᵀ h Σ b_l δF_l belongs to ζ_i.
-    fn add<const C: usize>(
-        &self,
-        table: &Collocation<S>,
-        state: &ElementState<'_, S>,
-        system: &mut StageSystem<S, C>,
-        ends: &mut Ends<S>,
-    ) -> Matrix6<f64> {
-        for k in 0..S {
-            let pose = &state.kinematics.stage[k];
-            let weights = table.a[k].map(|a| state.h * a);
-            for m in 0..S {
-                let [aa, al, la] = self.brought(&weights, m, &pose.rotation, &pose.position);
-                system.angular_angular[k][m] += aa;
-                system.angular_linear[k][m] += al;
-                system.linear_angular[k][m] += la;
-            }
-            let e = pose.adjoint().to_matrix().transpose() * self.weighted(&weights);
-            for c in 0..6 {
-                for r in 0..3 {
-                    system.angular_rhs[k][(r, ZETA + c)] = -e[(r, c)];
-                    system.linear_rhs[k][(r, ZETA + c)] = -e[(3 + r, c)];
-                }
-            }
-        }
-        let (pose, weights) = (&state.kinematics.end, table.b.map(|b| state.h * b));
-        for m in 0..S {
-            ends.blocks[m] = self.brought(&weights, m, &pose.rotation, &pose.position);
-        }
-        -(pose.adjoint().to_matrix().transpose() * self.weighted(&weights))
-    }
-
-    /// Ad_gᵀ Σ_l weight_l g_lm.
-    fn brought(&self, weights: &[f64; S], m: usize, r: &Matrix3<f64>, p: &Vector3<f64>) -> [Matrix3<f64>; 3] {
-        let mut sum = [Matrix3::zeros(); 3];
-        for l in 0..S {
-            for b in 0..3 {
-                sum[b] += self.g[l][m][b] * weights[l];
-            }
-        }
-        // Ad_gᵀ = [[Rᵀ, −Rᵀ p^], [0, Rᵀ]]
-        [r.tr_mul(&(sum[0] - cross(p, &sum[2]))), r.tr_mul(&sum[1]), r.tr_mul(&sum[2])]
-    }
-
-    fn weighted(&self, weights: &[f64; S]) -> Matrix6<f64> {
-        self.e.iter().zip(weights).fold(Matrix6::zeros(), |sum, (e, w)| sum + e * *w)
-    }
-}

@@ -4,6 +4,8 @@ use nalgebra::{Matrix3, Matrix6};
 
 use super::collocation::Collocation;
 use super::magnus::{exponent, exponent_derivative, taylor_data};
+use super::planar;
+use crate::body::Constraint;
 use crate::lie::{Pose, Twist, TwistMap, Wrench, se3, so3::hat};
 use crate::load::LoadWrench;
 use crate::material::Response;
@@ -51,6 +53,22 @@ impl<D: Scalar, const S: usize> Kinematics<D, S> {
         (at_start, self.stage_wrenches(table, &at_start, &node_loads, h))
     }
 
+    /// Λ_k at the stages and Λ at the end, from Λ_i and the loads of the stages.
+    pub(crate) fn wrenches_from_start(
+        &self,
+        table: &Collocation<S>,
+        wrench_at_start: &Wrench<D>,
+        stage_loads: Option<&[Wrench<D>; S]>,
+        h: f64,
+    ) -> ([Wrench<D>; S], Wrench<D>) {
+        let node_loads = stage_loads.map_or([Wrench::zero(); S], |loads| self.at_node(loads));
+        let mut at_end = *wrench_at_start;
+        for l in 0..S {
+            at_end -= node_loads[l] * D::from(h * table.b[l]);
+        }
+        (self.stage_wrenches(table, wrench_at_start, &node_loads, h), carried(&self.end, &at_end))
+    }
+
     /// Λ_i = Ad_e⁻ᵀ Λ_{i+1} + h Σ b_l F_l.
     pub(crate) fn wrench_at_start(
         &self,
@@ -81,6 +99,19 @@ impl<D: Scalar, const S: usize> Kinematics<D, S> {
             }
             self.stage[k].adjoint().apply_transpose(&wrench)
         })
+    }
+}
+
+impl<const S: usize> Kinematics<f64, S> {
+    /// As [`new`](Self::new), in the plane where the constraint keeps the rod there.
+    #[inline(always)]
+    pub(crate) fn constrained(
+        table: &Collocation<S>,
+        xi: &[Twist; S],
+        h: f64,
+        constraint: &Constraint,
+    ) -> Self {
+        if planar::holds(constraint, xi) { planar::kinematics(table, xi, h) } else { Self::new(table, xi, h) }
     }
 }
 
@@ -156,6 +187,8 @@ pub(crate) struct ElementState<'a, const S: usize> {
     pub(crate) wrench_at_end: &'a Wrench,
     /// Distributed load and its tangent at the stages; `None` without loads.
     pub(crate) load: Option<&'a [LoadWrench; S]>,
+    /// Strains that do not vary: their equations are left out.
+    pub(crate) constraint: Constraint,
 }
 
 impl<const S: usize> ElementState<'_, S> {

@@ -11,7 +11,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::lie::{Twist, TwistMap};
+use crate::lie::{Twist, TwistMap, Wrench};
 use crate::scalar::Scalar;
 
 /// α_{j+1} = h Σ_l t_jl ξ_l.
@@ -84,6 +84,35 @@ pub(crate) fn exponent_derivative<const S: usize>(alpha: &[Twist; S]) -> [TwistM
             all
         }
     }
+}
+
+/// (∂Ω/∂α_j)ᵀ Λ, by vectors alone: the transposed formulas of [`exponent_derivative`].
+#[inline(always)]
+pub(crate) fn exponent_derivative_transpose<const S: usize>(
+    alpha: &[Twist; S],
+    wrench: &Wrench,
+) -> [Wrench; S] {
+    let mut all = [*wrench; S];
+    match S {
+        1 => {}
+        2 => {
+            all[0] = *wrench - wrench.ad_transpose(&alpha[1]) * (1.0 / 12.0);
+            all[1] = wrench.ad_transpose(&alpha[0]) * (1.0 / 12.0);
+        }
+        _ => {
+            const SCALE: f64 = 1.0 / 240.0;
+            let (p, q) = factors(alpha);
+            let (a1, a2) = (&alpha[0], &alpha[1]);
+            let inner = alpha[2] * 2.0 + a2.bracket(a1);
+            let (by_p, by_q) = (wrench.ad_transpose(&p), wrench.ad_transpose(&q));
+            let q1 = by_q.ad_transpose(a1);
+            all[0] = *wrench + (by_p.ad_transpose(a2) - by_p * 20.0) * SCALE
+                - (q1.ad_transpose(a2) - by_q.ad_transpose(&inner)) * (SCALE / 60.0);
+            all[1] = q1.ad_transpose(a1) * (SCALE / 60.0) - (by_p.ad_transpose(a1) + by_q) * SCALE;
+            all[2] = *wrench * (1.0 / 12.0) - (by_p + q1 * (1.0 / 30.0)) * SCALE;
+        }
+    }
+    all
 }
 
 /// ad_a ad_b.

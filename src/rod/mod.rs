@@ -1,15 +1,24 @@
 //! The rod in space: its scene, and the collocation element in the strains.
 //!
-//! A [`Rod`] is a body with a base, loads and a tip. The element has the strains at Gauss points as unknowns; poses follow by
+//! A [`Rod`] is a body with a [`Support`] at either end, loads, and joints on the way. The element has the strains at Gauss points as unknowns; poses follow by
 //! integrating them forward (g′ = g ξ^), wrenches by the balance from the free end backward.
 //!
 //! What lives here states equilibrium and its exact linearisation on one element; it does not solve anything.
 
+pub(crate) mod adjoint;
 pub(crate) mod collocation;
 pub(crate) mod condense;
 pub(crate) mod element;
+pub(crate) mod joint;
+mod load_terms;
 pub(crate) mod magnus;
+mod planar;
 mod scene;
+mod stage_system;
 mod stages;
+mod strong_form;
+pub(crate) mod support;
 
 pub use scene::Rod;
+pub use strong_form::{Motion, RateLoad, SectionState, StrainRate};
+pub use support::{Condition, Freedom, Support};

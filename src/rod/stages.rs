@@ -5,12 +5,13 @@ use nalgebra::{Matrix3, SMatrix};
 use super::condense::COLUMNS;
 use super::element::Linearisation;
 
-/// Solves for the curvatures of up to three stages: 3S equations with C right-hand sides. `None` if they are singular.
+/// Solves for the curvatures of up to three stages: 3S equations with C right-hand sides, which the solution replaces. `None` if they are
+/// singular.
 #[inline(always)]
 pub(super) fn solve_rows<const S: usize, const C: usize>(
     matrix: &[[Matrix3<f64>; S]; S],
-    rhs: &[SMatrix<f64, 3, C>; S],
-) -> Option<[SMatrix<f64, 3, C>; S]> {
+    rhs: &mut [SMatrix<f64, 3, C>; S],
+) -> Option<()> {
     const MAX: usize = 9;
     let n = 3 * S;
     let mut left = [[0.0_f64; MAX]; MAX];
@@ -62,43 +63,92 @@ pub(super) fn solve_rows<const S: usize, const C: usize>(
         }
         right[row] = value.map(|v| v * inverse);
     }
-    let mut solution = [SMatrix::<f64, 3, C>::zeros(); S];
     for k in 0..S {
         for r in 0..3 {
             for c in 0..C {
-                solution[k][(r, c)] = right[3 * k + r][c];
+                rhs[k][(r, c)] = right[3 * k + r][c];
             }
+        }
+    }
+    Some(())
+}
+
+/// As [`solve_rows`] for the curvatures that are not `fixed`: fewer equations; the others are zero.
+pub(super) fn solve_free_rows<const S: usize, const C: usize>(
+    matrix: &[[Matrix3<f64>; S]; S],
+    rhs: &mut [SMatrix<f64, 3, C>; S],
+    fixed: &[bool; 6],
+) -> Option<()> {
+    const MAX: usize = 9;
+    let mut free = [(0, 0); MAX];
+    let mut n = 0;
+    for k in 0..S {
+        for r in (0..3).filter(|&r| !fixed[r]) {
+            free[n] = (k, r);
+            n += 1;
+        }
+    }
+    let mut rows = [[0.0_f64; MAX + COLUMNS]; MAX];
+    for (row, &(k, r)) in rows.iter_mut().zip(&free[..n]) {
+        for (entry, &(m, c)) in row.iter_mut().zip(&free[..n]) {
+            *entry = matrix[k][m][(r, c)];
+        }
+        for c in 0..C {
+            row[n + c] = rhs[k][(r, c)];
+        }
+    }
+    eliminate(&mut rows[..n], n + C)?;
+    rhs.iter_mut().for_each(|rhs| rhs.fill(0.0));
+    for (row, &(k, r)) in rows.iter().zip(&free[..n]) {
+        for c in 0..C {
+            rhs[k][(r, c)] = row[n + c];
+        }
+    }
+    Some(())
+}
+
+/// Solves A X = (P_Λ, −r, P_ζ) for all strains at once that are not fixed, rows scaled by their largest entry.
+pub(super) fn solve_general<const S: usize>(
+    element: &Linearisation<S>,
+    fixed: &[bool; 6],
+) -> Option<[SMatrix<f64, 6, COLUMNS>; S]> {
+    const MAX: usize = 18;
+    const WIDTH: usize = MAX + COLUMNS;
+    let mut free = [(0, 0); MAX];
+    let mut n = 0;
+    for k in 0..S {
+        for r in (0..6).filter(|&r| !fixed[r]) {
+            free[n] = (k, r);
+            n += 1;
+        }
+    }
+    let mut rows = [[0.0_f64; WIDTH]; MAX];
+    for (row, &(k, r)) in rows.iter_mut().zip(&free[..n]) {
+        for (entry, &(m, c)) in row.iter_mut().zip(&free[..n]) {
+            *entry = element.stage[k][m][(r, c)];
+        }
+        for c in 0..6 {
+            row[n + c] = element.from_wrench[k][(r, c)];
+            row[n + 7 + c] = element.from_zeta[k][(r, c)];
+        }
+        row[n + 6] = -element.residual[k].to_array()[r];
+        let size = row[..n].iter().fold(0.0_f64, |size, v| size.max(v.abs()));
+        row.iter_mut().for_each(|v| *v /= size);
+    }
+    eliminate(&mut rows[..n], n + COLUMNS)?;
+    let mut solution = [SMatrix::zeros(); S];
+    for (row, &(k, r)) in rows.iter().zip(&free[..n]) {
+        for c in 0..COLUMNS {
+            solution[k][(r, c)] = row[n + c];
         }
     }
     Some(solution)
 }
 
-/// Solves A X = (P_Λ, −r, P_ζ) for all strains at once, rows scaled by their largest entry.
-pub(super) fn solve_general<const S: usize>(
-    element: &Linearisation<S>,
-) -> Option<[SMatrix<f64, 6, COLUMNS>; S]> {
-    const MAX: usize = 18;
-    const WIDTH: usize = MAX + COLUMNS;
-    let n = 6 * S;
-    let mut rows = [[0.0_f64; WIDTH]; MAX];
-    for k in 0..S {
-        for r in 0..6 {
-            let row = &mut rows[6 * k + r];
-            for m in 0..S {
-                for c in 0..6 {
-                    row[6 * m + c] = element.stage[k][m][(r, c)];
-                }
-            }
-            for c in 0..6 {
-                row[n + c] = element.from_wrench[k][(r, c)];
-                row[n + 7 + c] = element.from_zeta[k][(r, c)];
-            }
-            row[n + 6] = -element.residual[k].to_array()[r];
-            let size = row[..n].iter().fold(0.0_f64, |size, v| size.max(v.abs()));
-            row.iter_mut().for_each(|v| *v /= size);
-        }
-    }
-    let width = n + COLUMNS;
+/// Gaussian elimination with row pivoting of as many unknowns as rows, the right-hand sides in the columns after them up to `width`; the
+/// solution is where they were. `None` where no pivot is left.
+fn eliminate<const W: usize>(rows: &mut [[f64; W]], width: usize) -> Option<()> {
+    let n = rows.len();
     for column in 0..n {
         let pivot = (column..n).max_by(|&p, &q| rows[p][column].abs().total_cmp(&rows[q][column].abs()))?;
         if !(rows[pivot][column].abs() > f64::MIN_POSITIVE && rows[pivot][column].is_finite()) {
@@ -126,5 +176,5 @@ pub(super) fn solve_general<const S: usize>(
             }
         }
     }
-    Some(std::array::from_fn(|k| SMatrix::from_fn(|r, c| rows[6 * k + r][n + c])))
+    Some(())
 }

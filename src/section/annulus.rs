@@ -73,4 +73,8 @@ impl<I: Profile, O: Profile> Shape for Annulus<I, O> {
     fn is_constant(&self) -> bool {
         self.inner.is_constant() && self.outer.is_constant()
     }
+
+    fn is_ring(&self) -> bool {
+        true
+    }
 }

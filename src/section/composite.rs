@@ -99,6 +99,10 @@ impl CrossSection for Composite {
     fn adapt_to(&mut self, at: &Station) -> Result<()> {
         self.parts.iter_mut().try_for_each(|(part, _)| part.adapt_to(at))
     }
+
+    fn breakpoints(&self) -> Vec<f64> {
+        self.parts.iter().flat_map(|(part, _)| part.breakpoints()).collect()
+    }
 }
 
 impl Geometry for Composite {
@@ -114,6 +118,15 @@ impl Geometry for Composite {
         let mut total = AreaMoments::default();
         for (part, factor) in &self.parts {
             total += part.weighted_moments(s)? * *factor;
+        }
+        Ok(total)
+    }
+
+    fn weighted_third_moments(&self, s: f64) -> Result<[f64; 4]> {
+        let mut total = [0.0; 4];
+        for (part, factor) in &self.parts {
+            let third = part.weighted_third_moments(s)?;
+            total = std::array::from_fn(|i| total[i] + factor * third[i]);
         }
         Ok(total)
     }

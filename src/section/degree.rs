@@ -38,7 +38,7 @@ pub struct QuadratureReport {
 
 impl StrainRange {
     /// Strains that reach the limits in bending, twist, stretch and shear, alone and together, on a section of radius r.
-    fn samples(&self, r: f64) -> [Strain; 6] {
+    pub(super) fn samples(&self, r: f64) -> [Strain; 6] {
         let (k, t) = (self.axial / r, self.shear / r);
         let (e, g) = (self.axial, self.shear);
         [
@@ -52,7 +52,7 @@ impl StrainRange {
         .map(Strain::from_array)
     }
 
-    fn check(&self) -> Result<()> {
+    pub(super) fn check(&self) -> Result<()> {
         for (quantity, value) in
             [("axial strain of a range", self.axial), ("shear strain of a range", self.shear)]
         {

@@ -56,6 +56,16 @@ impl AreaMoments {
         sum
     }
 
+    /// (∫x³, ∫x²y, ∫xy², ∫y³) dA over points and weights.
+    pub(super) fn third(points: &Points) -> [f64; 4] {
+        let mut sum = [0.0; 4];
+        for ((&x, &y), &w) in points.x.iter().zip(&points.y).zip(&points.weight) {
+            let products = [x * x * x, x * x * y, x * y * y, y * y * y];
+            sum = std::array::from_fn(|i| sum[i] + w * products[i]);
+        }
+        sum
+    }
+
     /// The polar moment J = I_x + I_y, m⁴: the torsion constant of a section that cannot warp.
     pub fn polar(&self) -> f64 {
         self.i_x + self.i_y
@@ -127,8 +137,10 @@ impl std::ops::Mul<f64> for AreaMoments {
 
 /// A section that knows its area: what gravity and inertia ask for.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` has no geometry, so its mass cannot be computed from a density",
-    note = "a `Section` has one; for a `Stiffness`, give the body a mass per length instead"
+    message = "`{Self}` has no shape, and its area is needed",
+    label = "needs a section with a shape",
+    note = "a `Section` has one: `Section::new(shape, material)?`",
+    note = "for gravity on a section without one, give the body a mass per length: `with_mass_per_length(kg_per_m)?`"
 )]
 pub trait Geometry: Send + Sync {
     /// Area and moments at arc length s, by the quadrature of the section itself.
@@ -144,4 +156,11 @@ pub trait Geometry: Send + Sync {
     fn weighted_moments(&self, s: f64) -> Result<AreaMoments> {
         self.moments(s)
     }
+
+    /// The third moments (∫x³, ∫x²y, ∫xy², ∫y³) dA with each part weighted by its relative density, m⁵: zero for a section symmetric about
+    /// both axes. The rotary inertia of a body with a curved reference asks for them.
+    ///
+    /// # Errors
+    /// As [`moments`](Self::moments).
+    fn weighted_third_moments(&self, s: f64) -> Result<[f64; 4]>;
 }

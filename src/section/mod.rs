@@ -6,13 +6,16 @@
 //!
 //! What lives here knows one section at a time: nothing of lengths, poses or loads.
 
+mod actuation;
 mod annulus;
 mod check;
 mod circle;
 mod composite;
 mod degree;
+mod effective;
 mod ellipse;
 mod geometry;
+mod path;
 mod placement;
 mod point_cloud;
 mod polygon;
@@ -20,6 +23,7 @@ mod profile;
 mod quadratic;
 mod rectangle;
 mod regular_polygon;
+mod relaxed;
 mod resultant;
 mod ribbon;
 mod shape;
@@ -27,18 +31,22 @@ mod solid;
 mod stiffness;
 
 pub use crate::quadrature::Polygon;
+pub use actuation::{Actuated, Actuator, Converging, Helical, PressureChamber, Routing, Tendon};
 pub use annulus::Annulus;
 pub use check::{AxisRange, Bound, CheckOptions, CheckReport, Derivatives, Moduli, check};
 pub use circle::Circle;
 pub use composite::Composite;
 pub use degree::{QuadratureReport, StrainRange};
+pub use effective::EffectiveStiffness;
 pub use ellipse::Ellipse;
 pub use geometry::{AreaMoments, Geometry, PrincipalAxes};
+pub use path::{PathOptions, PathPoint, WrenchPath};
 pub use placement::{Rotated, Scaled, Shifted};
 pub use point_cloud::PointCloud;
 pub use profile::{Linear, Profile};
 pub use rectangle::Rectangle;
 pub use regular_polygon::RegularPolygon;
+pub use relaxed::{Deformed, Extremes, LadderReport, LadderStep, Relaxation, Relaxed, SectionPoint, Warping};
 pub use resultant::{Resultant, Resultants};
 pub use ribbon::Ribbon;
 pub use shape::{Affine, Shape};
@@ -123,6 +131,20 @@ pub trait CrossSection: Send + Sync {
     fn adapt_to(&mut self, _at: &Station) -> Result<()> {
         Ok(())
     }
+
+    /// Arc lengths at which the response is not smooth in s, in any order: a mesh wants nodes there. At such an s the response is
+    /// that of what lies before.
+    fn breakpoints(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// The same with an [`Actuator`] on it: a tendon, a pressure chamber.
+    fn with_actuator(self, actuator: impl Actuator + 'static) -> Actuated<Self>
+    where
+        Self: Sized,
+    {
+        Actuated::new(self).with_actuator(actuator)
+    }
 }
 
 impl CrossSection for Box<dyn CrossSection> {
@@ -141,5 +163,9 @@ impl CrossSection for Box<dyn CrossSection> {
 
     fn adapt_to(&mut self, at: &Station) -> Result<()> {
         (**self).adapt_to(at)
+    }
+
+    fn breakpoints(&self) -> Vec<f64> {
+        (**self).breakpoints()
     }
 }

@@ -65,6 +65,10 @@ impl<S: Shape, F: Profile> Shape for Scaled<S, F> {
     fn max_degree(&self) -> usize {
         self.shape.max_degree()
     }
+
+    fn is_ring(&self) -> bool {
+        self.shape.is_ring()
+    }
 }
 
 impl<S: Shape, A: Profile> Shape for Rotated<S, A> {
@@ -83,6 +87,10 @@ impl<S: Shape, A: Profile> Shape for Rotated<S, A> {
 
     fn max_degree(&self) -> usize {
         self.shape.max_degree()
+    }
+
+    fn is_ring(&self) -> bool {
+        self.shape.is_ring()
     }
 }
 
@@ -103,5 +111,9 @@ impl<S: Shape, X: Profile, Y: Profile> Shape for Shifted<S, X, Y> {
 
     fn max_degree(&self) -> usize {
         self.shape.max_degree()
+    }
+
+    fn is_ring(&self) -> bool {
+        self.shape.is_ring()
     }
 }

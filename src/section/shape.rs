@@ -40,6 +40,11 @@ pub trait Shape: Send + Sync {
         MAX_DEGREE
     }
 
+    /// Whether it is a round tube, for which a [relaxed section](super::Relaxed) takes functions of radius and angle.
+    fn is_ring(&self) -> bool {
+        false
+    }
+
     /// The same, larger by a factor about the axis of the rod.
     fn scaled<F: Profile>(self, factor: F) -> Scaled<Self, F>
     where
@@ -80,6 +85,10 @@ impl Shape for Box<dyn Shape> {
 
     fn max_degree(&self) -> usize {
         (**self).max_degree()
+    }
+
+    fn is_ring(&self) -> bool {
+        (**self).is_ring()
     }
 }
 

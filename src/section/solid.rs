@@ -253,6 +253,14 @@ impl<S: Shape, M: Material> Geometry for Section<S, M> {
             None => Ok(AreaMoments::of(&self.shape.place(&self.rule, s)?)),
         }
     }
+
+    fn weighted_third_moments(&self, s: f64) -> Result<[f64; 4]> {
+        const DEGREE: usize = 3;
+        if self.degree >= DEGREE {
+            return self.with_points(s, |points| Ok(AreaMoments::third(points)));
+        }
+        Ok(AreaMoments::third(&self.shape.place(&self.shape.rule(DEGREE)?, s)?))
+    }
 }
 
 fn check_tolerance(tolerance: f64) -> Result<f64> {

@@ -4,14 +4,16 @@ use super::describe::{describe, failed};
 use super::equilibrium::Configuration;
 use super::estimate::{Defect, Level, difference, first_elements};
 use super::failure::{Failure, Reason};
+use super::globalise::{NEUTRAL, unstable};
 use super::linear::Buffers;
-use super::mesh::{Mesh, StageStrains};
+use super::mesh::Mesh;
 use super::newton::{Newton, Outcome, Stop};
 use super::report::{ErrorEstimate, Report};
+use super::rigid;
 use super::solution::StaticSolution;
+use super::unknowns::Unknowns;
 use crate::body::Elastic;
 use crate::error::Error;
-use crate::lie::Strain;
 use crate::rod::Rod;
 
 /// Meshes a solve to an accuracy may try.
@@ -39,29 +41,58 @@ const FIRST_NEWTON: f64 = 1e-3;
 const NEWTON_SHARE: f64 = 0.02;
 
 /// How often a first mesh on which Newton's method fails is made four times finer.
-const FIRST_MESHES: usize = 3;
+const FIRST_MESHES: u32 = 3;
 
 pub(super) struct Cascade<'r, 'o, B, const S: usize> {
     rod: &'r Rod<B>,
     newton: Newton<'o>,
-    buffers: &'o mut Buffers<S>,
-    report: Report,
+    pub(super) buffers: &'o mut Buffers<S>,
+    pub(super) report: Report,
+    /// Whether an equilibrium that would not stay is an answer.
+    pub(super) accept_unstable: bool,
+    /// Whether the first mesh already is to have a stable state: after an answer that was none.
+    pub(super) careful: bool,
+    /// Neutral modes of the last state whose stability was told.
+    pub(super) neutral: usize,
 }
 
 type Solved = Result<StaticSolution, Box<Failure>>;
 
 impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
-    pub(super) fn new(rod: &'r Rod<B>, newton: Newton<'o>, buffers: &'o mut Buffers<S>) -> Self {
-        Self { rod, newton, buffers, report: Report::default() }
+    pub(super) fn new(
+        rod: &'r Rod<B>,
+        newton: Newton<'o>,
+        buffers: &'o mut Buffers<S>,
+        accept_unstable: bool,
+    ) -> Self {
+        Self { rod, newton, buffers, report: Report::default(), accept_unstable, careful: false, neutral: 0 }
     }
 
     /// A mesh of so many equal elements, then one of twice as many, which is the answer.
     pub(super) fn on_mesh(&mut self, coarse_elements: usize) -> Solved {
+        self.twice(|cascade| cascade.on_mesh_once(coarse_elements))
+    }
+
+    /// Once more, looking for a stable state from the first mesh on, where the answer is not one.
+    fn twice(&mut self, solve: impl Fn(&mut Self) -> Solved) -> Solved {
+        match solve(self) {
+            Err(failure) if !self.careful && retried(&failure.reason) => {
+                self.careful = true;
+                solve(self)
+            }
+            solved => solved,
+        }
+    }
+
+    fn on_mesh_once(&mut self, coarse_elements: usize) -> Solved {
+        self.check_supports()?;
         let coarse_mesh = Mesh::<B, S>::uniform(self.rod, coarse_elements);
-        let coarse = self.solve(&coarse_mesh, at_rest(coarse_elements))?;
-        let mesh = Mesh::<B, S>::uniform(self.rod, 2 * coarse_elements);
-        let parts = vec![2; coarse_elements];
-        let fine = self.solve(&mesh, coarse_mesh.prolong(&coarse.strains, &parts))?;
+        let (coarse_mesh, coarse) = self.climb(std::iter::once(coarse_mesh))?;
+        let parts = vec![2; coarse_mesh.elements()];
+        let mut mesh = coarse_mesh.refined(&parts);
+        let start = coarse.unknowns.prolonged(&coarse_mesh, &parts);
+        self.hold_neutral_modes(&mut mesh, &start);
+        let fine = self.solve(&mesh, start)?;
         if let (Some(coarse), Some(fine)) = (&coarse.state, &fine.state) {
             // a difference of (2^p − 1) errors of the finer one
             let factor = 1.0 / (4.0_f64.powi(S as i32) - 1.0);
@@ -73,6 +104,11 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
 
     /// Cuts elements until the estimated error is below `accuracy`.
     pub(super) fn to(&mut self, accuracy: f64) -> Solved {
+        self.twice(|cascade| cascade.to_once(accuracy))
+    }
+
+    fn to_once(&mut self, accuracy: f64) -> Solved {
+        self.check_supports()?;
         let length = self.rod.body().length();
         self.newton.stop = Stop::Error(FIRST_NEWTON);
         let mut level = self.first_level()?;
@@ -82,7 +118,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         let mut best = f64::INFINITY;
         for _ in 0..MAX_LEVELS {
             let mesh = level.mesh.refined(&parts);
-            let start = level.mesh.prolong(&level.outcome.strains, &parts);
+            let start = level.outcome.unknowns.prolonged(&level.mesh, &parts);
             predicted *= promised(&level.defect.shares, &parts, 2 * S);
             self.newton.stop =
                 Stop::Error((NEWTON_SHARE * predicted.max(accuracy)).clamp(1e-18, FIRST_NEWTON));
@@ -110,49 +146,77 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         Err(Box::new(Failure { reason, report: self.report.clone(), last }))
     }
 
+    /// Refuses a rod that nothing holds.
+    fn check_supports(&mut self) -> Result<(), Box<Failure>> {
+        let probe = Mesh::<B, S>::uniform(self.rod, 1);
+        if probe.is_cantilever() {
+            return Ok(());
+        }
+        let mut state = self.buffers.configuration();
+        // what cannot be evaluated is found again, and named, by the solve
+        let held = match probe.configure(&Unknowns::at_rest(&probe), &mut state) {
+            Ok(()) => rigid::check(&probe, &state),
+            Err(_) => Ok(()),
+        };
+        self.buffers.recycle(state);
+        held.map_err(|error| {
+            let reason = Reason::Supports(error);
+            Box::new(Failure { reason, report: self.report.clone(), last: None })
+        })
+    }
+
     /// The first mesh, from rest; a finer one where Newton's method fails on it.
     fn first_level(&mut self) -> Result<Level<'r, B, S>, Box<Failure>> {
         let probe = Mesh::<B, S>::uniform(self.rod, 1);
         let mut state = self.buffers.configuration();
-        let mut elements = match probe.configure(&at_rest(1), &mut state) {
+        let elements = match probe.configure(&Unknowns::at_rest(&probe), &mut state) {
             Ok(()) => first_elements(&probe, &state),
             Err(_) => 2, // the solve finds the same, and says so
         };
         self.buffers.recycle(state);
-        let mut trial = 1;
-        loop {
-            let level = self.level(Mesh::uniform(self.rod, elements), at_rest(elements));
-            if level.is_ok() || trial == FIRST_MESHES {
-                return level;
-            }
-            trial += 1;
-            elements *= 4;
-        }
+        let rod = self.rod;
+        let meshes = (0..FIRST_MESHES).map(|trial| Mesh::uniform(rod, elements * 4_usize.pow(trial)));
+        let (mesh, outcome) = self.climb(meshes)?;
+        Ok(Self::level_of(mesh, outcome))
     }
 
     fn level(
         &mut self,
-        mesh: Mesh<'r, B, S>,
-        start: StageStrains<S>,
+        mut mesh: Mesh<'r, B, S>,
+        start: Unknowns<S>,
     ) -> Result<Level<'r, B, S>, Box<Failure>> {
+        self.hold_neutral_modes(&mut mesh, &start);
         let outcome = self.solve(&mesh, start)?;
-        let defect = match &outcome.state {
-            Some(state) => Defect::of(&mesh, &outcome.strains, state),
-            None => Defect { shares: vec![0.0; mesh.elements()] },
-        };
-        Ok(Level { mesh, outcome, defect })
+        Ok(Self::level_of(mesh, outcome))
     }
 
-    fn solve(&mut self, mesh: &Mesh<'_, B, S>, start: StageStrains<S>) -> Result<Outcome<S>, Box<Failure>> {
+    fn level_of(mesh: Mesh<'r, B, S>, outcome: Outcome<S>) -> Level<'r, B, S> {
+        let defect = match &outcome.state {
+            Some(state) => Defect::of(&mesh, &outcome.unknowns.strains, state),
+            None => Defect { shares: vec![0.0; mesh.elements()] },
+        };
+        Level { mesh, outcome, defect }
+    }
+
+    pub(super) fn solve(
+        &mut self,
+        mesh: &Mesh<'_, B, S>,
+        start: Unknowns<S>,
+    ) -> Result<Outcome<S>, Box<Failure>> {
         let outcome = self.newton.solve(mesh, start, self.buffers, &mut self.report.iterations);
         self.report.residual = outcome.residual;
+        self.buffers.neutral.clear();
         if outcome.failure.is_some() {
             return Err(failed(mesh, outcome, self.report.clone()));
         }
         Ok(outcome)
     }
 
-    fn answer(&self, mesh: &Mesh<'_, B, S>, outcome: &Outcome<S>) -> Solved {
+    fn answer(&mut self, mesh: &Mesh<'_, B, S>, outcome: &Outcome<S>) -> Solved {
+        self.report.stability = self.stability_of(mesh, outcome, NEUTRAL);
+        if self.report.stability.is_unstable() && !self.accept_unstable {
+            return Err(unstable(mesh, outcome, self.report.stability, self));
+        }
         let Some(state) = &outcome.state else {
             let reason = Reason::Singular {
                 iteration: outcome.iterations,
@@ -160,12 +224,13 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
             };
             return Err(Box::new(Failure { reason, report: self.report.clone(), last: None }));
         };
-        Ok(describe(mesh, &outcome.strains, state, self.report.clone()))
+        Ok(describe(mesh, &outcome.unknowns.strains, state, self.report.clone()))
     }
 }
 
-fn at_rest<const S: usize>(elements: usize) -> StageStrains<S> {
-    vec![[Strain::zero(); S]; elements]
+/// Whether a failure may be one of a state that would not stay, or that costs nothing to turn.
+fn retried(reason: &Reason) -> bool {
+    matches!(reason, Reason::Unstable { .. } | Reason::Accuracy { .. })
 }
 
 /// The error of the finer of two meshes: d = E − E′ and E′ ≈ R E, with the gain R read off the defects, or off the order of the element

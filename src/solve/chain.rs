@@ -13,56 +13,68 @@ pub(crate) struct EndRows {
     pub(crate) rhs: SVector<f64, 6>,
 }
 
-/// y_{i+1} = T y_i + c.
+/// Twelve equations A y_i + B y_{i+1} = c between two nodes.
 #[derive(Clone, Debug)]
-pub(crate) struct Transfer {
-    pub(crate) matrix: SMatrix<f64, 12, 12>,
+pub(crate) struct Link {
+    pub(crate) left: SMatrix<f64, 12, 12>,
+    pub(crate) right: SMatrix<f64, 12, 12>,
     pub(crate) rhs: State,
 }
 
 const WIDTH: usize = 25;
 type Row = [f64; WIDTH];
 
-/// Solves the chain by Gaussian elimination with row pivoting inside a window of one element: O(N), and stable where
-/// marching y_{i+1} = T y_i + c (linear shooting) loses all digits.
-///
-/// `station` gives the arc length of node i, for the error alone.
-pub(crate) fn solve(
-    left: &EndRows,
-    transfers: &[Transfer],
-    right: &EndRows,
-    station: impl Fn(usize) -> f64,
-) -> Result<Vec<State>> {
-    let mut carry: [Row; 6] = std::array::from_fn(|r| end_row(left, r));
-    let mut pivots: Vec<[Row; 12]> = Vec::with_capacity(transfers.len() + 1);
-    for (i, transfer) in transfers.iter().enumerate() {
-        let mut window = [[0.0; WIDTH]; 18];
-        window[..6].copy_from_slice(&carry);
-        for r in 0..12 {
-            let row = &mut window[6 + r];
-            for c in 0..12 {
-                row[c] = -transfer.matrix[(r, c)];
+/// Memory of the elimination, kept from solve to solve.
+#[derive(Default)]
+pub(crate) struct Chain {
+    pivots: Vec<[Row; 12]>,
+    states: Vec<State>,
+}
+
+impl Chain {
+    /// Solves the chain by Gaussian elimination with row pivoting inside a window of one link: O(N), and stable where
+    /// marching y_{i+1} = T y_i + c (linear shooting) loses all digits.
+    ///
+    /// `station` gives the arc length of node i, for the error alone.
+    pub(crate) fn solve(
+        &mut self,
+        left: &EndRows,
+        links: impl Iterator<Item = Link>,
+        right: &EndRows,
+        station: impl Fn(usize) -> f64,
+    ) -> Result<&[State]> {
+        let mut carry: [Row; 6] = std::array::from_fn(|r| end_row(left, r));
+        self.pivots.clear();
+        for link in links {
+            let mut window = [[0.0; WIDTH]; 18];
+            window[..6].copy_from_slice(&carry);
+            for r in 0..12 {
+                let row = &mut window[6 + r];
+                for c in 0..12 {
+                    row[c] = link.left[(r, c)];
+                    row[12 + c] = link.right[(r, c)];
+                }
+                row[24] = link.rhs[r];
             }
-            row[12 + r] = 1.0;
-            row[24] = transfer.rhs[r];
+            eliminate(&mut window).ok_or_else(|| singular(station(self.pivots.len())))?;
+            self.pivots.push(std::array::from_fn(|r| window[r]));
+            carry = std::array::from_fn(|r| {
+                let mut row = [0.0; WIDTH];
+                row[..12].copy_from_slice(&window[12 + r][12..24]);
+                row[24] = window[12 + r][24];
+                row
+            });
         }
-        eliminate(&mut window).ok_or_else(|| singular(station(i)))?;
-        pivots.push(std::array::from_fn(|r| window[r]));
-        carry = std::array::from_fn(|r| {
-            let mut row = [0.0; WIDTH];
-            row[..12].copy_from_slice(&window[12 + r][12..24]);
-            row[24] = window[12 + r][24];
-            row
-        });
+        let mut last = [[0.0; WIDTH]; 12];
+        last[..6].copy_from_slice(&carry);
+        for r in 0..6 {
+            last[6 + r] = end_row(right, r);
+        }
+        eliminate(&mut last).ok_or_else(|| singular(station(self.pivots.len())))?;
+        self.pivots.push(last);
+        substitute(&self.pivots, &mut self.states);
+        Ok(&self.states)
     }
-    let mut last = [[0.0; WIDTH]; 12];
-    last[..6].copy_from_slice(&carry);
-    for r in 0..6 {
-        last[6 + r] = end_row(right, r);
-    }
-    eliminate(&mut last).ok_or_else(|| singular(station(transfers.len())))?;
-    pivots.push(last);
-    Ok(substitute(&pivots))
 }
 
 fn singular(s: f64) -> Error {
@@ -101,10 +113,11 @@ fn eliminate(rows: &mut [Row]) -> Option<()> {
     Some(())
 }
 
-fn substitute(pivots: &[[Row; 12]]) -> Vec<State> {
-    let mut states = vec![State::zeros(); pivots.len()];
+fn substitute(pivots: &[[Row; 12]], states: &mut Vec<State>) {
+    states.clear();
+    states.resize(pivots.len(), State::zeros());
     let mut next = State::zeros();
-    for (rows, state) in pivots.iter().zip(&mut states).rev() {
+    for (rows, state) in pivots.iter().zip(states).rev() {
         for r in (0..12).rev() {
             let mut value = rows[r][24];
             for c in 0..12 {
@@ -117,7 +130,6 @@ fn substitute(pivots: &[[Row; 12]]) -> Vec<State> {
         }
         next = *state;
     }
-    states
 }
 
 #[cfg(test)]
@@ -140,9 +152,10 @@ mod tests {
             rhs: SVector::from_fn(|_, _| noise(&mut seed)),
         };
         let (left, right) = (end(), end());
-        let transfers: Vec<_> = (0..n)
-            .map(|_| Transfer {
-                matrix: SMatrix::from_fn(|_, _| noise(&mut seed)),
+        let links: Vec<_> = (0..n)
+            .map(|_| Link {
+                left: SMatrix::from_fn(|_, _| noise(&mut seed)),
+                right: SMatrix::from_fn(|_, _| noise(&mut seed)),
                 rhs: SVector::from_fn(|_, _| noise(&mut seed)),
             })
             .collect();
@@ -150,16 +163,17 @@ mod tests {
         let (mut a, mut b) = (DMatrix::zeros(size, size), DVector::zeros(size));
         a.view_mut((0, 0), (6, 12)).copy_from(&left.matrix);
         b.rows_mut(0, 6).copy_from(&left.rhs);
-        for (i, t) in transfers.iter().enumerate() {
+        for (i, link) in links.iter().enumerate() {
             let row = 6 + 12 * i;
-            a.view_mut((row, 12 * i), (12, 12)).copy_from(&-t.matrix);
-            a.view_mut((row, 12 * i + 12), (12, 12)).fill_with_identity();
-            b.rows_mut(row, 12).copy_from(&t.rhs);
+            a.view_mut((row, 12 * i), (12, 12)).copy_from(&link.left);
+            a.view_mut((row, 12 * i + 12), (12, 12)).copy_from(&link.right);
+            b.rows_mut(row, 12).copy_from(&link.rhs);
         }
         a.view_mut((size - 6, size - 12), (6, 12)).copy_from(&right.matrix);
         b.rows_mut(size - 6, 6).copy_from(&right.rhs);
         let dense = a.lu().solve(&b).unwrap();
-        let chain = solve(&left, &transfers, &right, |i| i as f64).unwrap();
+        let mut chain = Chain::default();
+        let chain = chain.solve(&left, links.into_iter(), &right, |i| i as f64).unwrap();
         for (i, y) in chain.iter().enumerate() {
             for c in 0..12 {
                 // a random 72×72 system has condition of order 1e3: 1e-16 × 1e3 with room for the growth of both
@@ -171,7 +185,7 @@ mod tests {
     #[test]
     fn a_chain_without_a_solution_says_where() {
         let rows = EndRows { matrix: SMatrix::zeros(), rhs: SVector::zeros() };
-        let error = solve(&rows, &[], &rows, |_| 0.25).unwrap_err();
+        let error = Chain::default().solve(&rows, std::iter::empty(), &rows, |_| 0.25).unwrap_err();
         assert_eq!(error, Error::Singular { matrix: "tangent of the rod", s: 0.25 });
     }
 }

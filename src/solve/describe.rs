@@ -2,12 +2,13 @@
 
 use super::equilibrium::Configuration;
 use super::failure::{Failure, Reason};
-use super::mesh::{Mesh, StageStrains};
+use super::mesh::Mesh;
 use super::newton::Outcome;
 use super::report::Report;
 use super::solution::{Node, StaticSolution};
+use super::unknowns::StageStrains;
 use crate::body::Elastic;
-use crate::lie::{Strain, Wrench};
+use crate::lie::{Pose, Strain, Wrench};
 use crate::material::Request;
 
 /// The failure that Newton's method ended with.
@@ -16,7 +17,8 @@ pub(super) fn failed<B: Elastic, const S: usize>(
     outcome: Outcome<S>,
     report: Report,
 ) -> Box<Failure> {
-    let last = outcome.state.as_ref().map(|state| describe(mesh, &outcome.strains, state, report.clone()));
+    let last =
+        outcome.state.as_ref().map(|state| describe(mesh, &outcome.unknowns.strains, state, report.clone()));
     let reason = outcome.failure.unwrap_or(Reason::IterationLimit {
         limit: outcome.iterations,
         step: f64::NAN,
@@ -43,15 +45,23 @@ pub(super) fn describe<B: Elastic, const S: usize>(
             });
         }
     }
-    let nodes = (0..=mesh.elements())
-        .map(|i| {
-            let (element, tau) = if i < mesh.elements() { (i, 0.0) } else { (i - 1, 1.0) };
-            let guess = mesh.interpolate(&strains[element], tau);
-            let (s, wrench) = (mesh.node_s(i), state.node_wrench[i]);
-            let strain = strain_of_wrench(mesh.rod.body(), s, &wrench, guess);
-            Node { s, pose: state.node_pose[i], strain, wrench }
-        })
-        .collect();
+    let node = |at: usize, element: usize, tau: f64, pose: Pose, wrench: Wrench| {
+        let guess = mesh.interpolate(&strains[element], tau);
+        let s = mesh.node_s(at);
+        let strain = strain_of_wrench(mesh.rod.body(), s, &wrench, guess);
+        Node { s, pose, strain, wrench }
+    };
+    let mut nodes = Vec::with_capacity(mesh.elements() + 1 + state.joints.len());
+    let mut joints = state.joints.iter();
+    for i in 0..mesh.elements() {
+        nodes.push(node(i, i, 0.0, state.node_pose[i], state.node_wrench[i]));
+        // a joint has a node on either side
+        if let Some(joint) = mesh.joint_at(i + 1).and_then(|_| joints.next()) {
+            nodes.push(node(i + 1, i, 1.0, joint.pose, joint.wrench));
+        }
+    }
+    let last = mesh.elements();
+    nodes.push(node(last, last - 1, 1.0, state.node_pose[last], state.node_wrench[last]));
     let (strain_energy, load_potential) = mesh.energies(state);
     StaticSolution { nodes, stages, strain_energy, load_potential, report }
 }
@@ -83,10 +93,16 @@ pub(super) fn strain_correction<B: Elastic>(
     strain: &Strain,
 ) -> Option<Strain> {
     let response = body.respond(s, strain, Request::Tangent).ok()?;
-    let residual = (*wrench - response.wrench).to_vector();
-    let step = match response.tangent.cholesky() {
+    let (mut tangent, mut residual) = (response.tangent, (*wrench - response.wrench).to_vector());
+    for (i, _) in body.constraint().fixed().iter().enumerate().filter(|(_, fixed)| **fixed) {
+        // Δξ_i = 0
+        tangent.row_mut(i).fill(0.0);
+        tangent.column_mut(i).fill(0.0);
+        (tangent[(i, i)], residual[i]) = (1.0, -strain.to_array()[i]);
+    }
+    let step = match tangent.cholesky() {
         Some(factor) => factor.solve(&residual),
-        None => response.tangent.lu().solve(&residual)?,
+        None => tangent.lu().solve(&residual)?,
     };
     Some(Strain::from_vector(&step))
 }

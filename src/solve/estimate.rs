@@ -2,9 +2,10 @@
 
 use super::describe::strain_correction;
 use super::equilibrium::Configuration;
-use super::mesh::{Mesh, StageStrains};
+use super::mesh::Mesh;
 use super::newton::Outcome;
 use super::report::ErrorEstimate;
+use super::unknowns::StageStrains;
 use crate::body::Elastic;
 use crate::lie::Wrench;
 
@@ -27,9 +28,10 @@ impl Defect {
     ) -> Self {
         let (body, length) = (mesh.rod.body(), mesh.rod.body().length());
         let share = |i: usize| {
-            let ends = [(i, 0.0), (i + 1, 1.0)].map(|(node, tau)| {
+            let ends = [(i, 0.0, &state.node_wrench[i]), (i + 1, 1.0, &state.end_wrench[i])];
+            let ends = ends.map(|(node, tau, wrench)| {
                 let guess = mesh.interpolate(&strains[i], tau);
-                match strain_correction(body, mesh.node_s(node), &state.node_wrench[node], &guess) {
+                match strain_correction(body, mesh.node_s(node), wrench, &guess) {
                     Some(change) => change.linear.norm().max(change.angular.norm() * length),
                     None => 1.0,
                 }

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{Report, StaticSolution};
+use super::{Report, Stability, StaticSolution};
 use crate::error::Error;
 
 /// Why a solve ended without an answer.
@@ -10,6 +10,9 @@ pub enum Reason {
     /// The options make no sense.
     #[error("{0}")]
     Options(Error),
+    /// The supports do not hold the rod.
+    #[error("{0}")]
+    Supports(Error),
     /// The rod cannot be evaluated where the solve starts, at its reference shape.
     #[error("the rod cannot be evaluated at its reference shape: {0}")]
     Start(Error),
@@ -47,6 +50,24 @@ pub enum Reason {
         /// The elements of the last mesh.
         elements: usize,
     },
+    /// Every equilibrium that was found is unstable. The last state of the failure is one.
+    #[error(
+        "an equilibrium was found, but no stable one ({stability}); accept_unstable takes it as the answer"
+    )]
+    Unstable {
+        /// How it is unstable.
+        stability: Stability,
+    },
+    /// No tension was found at which a tendon has the length asked for.
+    #[error("no tension makes the tendon {asked} m long: {found} m after {solves} solves")]
+    Length {
+        /// What was asked for, m.
+        asked: f64,
+        /// The length of the last solve, m.
+        found: f64,
+        /// How many solves were made.
+        solves: usize,
+    },
     /// The iteration limit was reached.
     #[error(
         "no convergence in {limit} iterations: last step {step:.3e}, asked {tolerance:.1e}; apply the load in steps, or raise the limit"
@@ -62,7 +83,9 @@ pub enum Reason {
 }
 
 /// A solve that failed: why, how it went, and the last state it had.
-#[derive(Clone, Debug, PartialEq, Error)]
+///
+/// Its `Debug` form, which a `main` that returns it prints, is short: the reason and the number of iterations.
+#[derive(Clone, PartialEq, Error)]
 #[error("static solve failed: {reason}")]
 pub struct Failure {
     /// Why.
@@ -72,4 +95,12 @@ pub struct Failure {
     pub report: Report,
     /// The last admissible state, not an equilibrium; `None` if there was none.
     pub last: Option<StaticSolution>,
+}
+
+impl std::fmt::Debug for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let nodes = self.last.as_ref().map_or(0, |last| last.nodes().len());
+        let iterations = self.report.iterations.len();
+        write!(f, "{self} (after {iterations} iterations; `last` has {nodes} nodes)")
+    }
 }

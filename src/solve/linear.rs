@@ -1,14 +1,21 @@
 //! One Newton step: the elements condensed, the chain solved, in memory that is kept from step to step.
 
-use nalgebra::{SMatrix, SVector, Vector6};
+use nalgebra::Vector6;
 
-use super::chain::{self, EndRows};
-use super::equilibrium::{Configuration, Scale};
-use super::mesh::{Mesh, StageStrains};
+use super::chain::Chain;
+use super::equilibrium::Configuration;
+use super::mesh::Mesh;
+use super::scale::Scale;
 use super::sweep::{Sweep, Tip};
+use super::unknowns::{StageStrains, Unknowns};
 use crate::body::Elastic;
 use crate::error::{Error, Result};
-use crate::rod::condense::Condensed;
+use crate::lie::Pose;
+use crate::load::LoadWrench;
+use crate::rod::condense::{Condensed, Transfer};
+
+/// By how much a tangent with neutral modes is made stiffer.
+const STIFFER: f64 = 1e-7;
 
 /// Displacement ζ and change of wrench δΛ of a node.
 pub(crate) type NodeStep = (Vector6<f64>, Vector6<f64>);
@@ -21,15 +28,28 @@ pub(crate) struct Step {
     pub(crate) rotation: f64,
 }
 
+/// A change of the [`Unknowns`].
+#[derive(Clone, Debug)]
+pub(crate) struct Increment<const S: usize> {
+    /// δξ.
+    pub(crate) strains: StageStrains<S>,
+    /// ζ and δΛ at the starts of the elements, and at the tip.
+    pub(crate) nodes: Vec<NodeStep>,
+    /// Of the reactions at the joints.
+    pub(crate) reactions: Vec<Vector6<f64>>,
+}
+
 /// Memory of the solves on meshes of one order, kept from iteration to iteration and from solve to solve.
 pub(crate) struct Buffers<const S: usize> {
-    condensed: Vec<Condensed<S>>,
+    pub(super) condensed: Vec<Condensed<S>>,
     sweep: Sweep,
-    nodes: Vec<NodeStep>,
-    /// δξ of the last step.
-    step: StageStrains<S>,
-    /// Strains of the state being tried.
-    pub(crate) trial: StageStrains<S>,
+    pub(super) chain: Chain,
+    /// The last step.
+    pub(super) step: Increment<S>,
+    /// Modes that cost nothing: no step has a part of them.
+    pub(super) neutral: Vec<Increment<S>>,
+    /// Unknowns of the state being tried.
+    pub(crate) trial: Unknowns<S>,
     spare: Vec<Configuration<S>>,
 }
 
@@ -38,9 +58,10 @@ impl<const S: usize> Default for Buffers<S> {
         Self {
             condensed: Vec::new(),
             sweep: Sweep::default(),
-            nodes: Vec::new(),
-            step: Vec::new(),
-            trial: Vec::new(),
+            chain: Chain::default(),
+            step: Increment { strains: Vec::new(), nodes: Vec::new(), reactions: Vec::new() },
+            neutral: Vec::new(),
+            trial: Unknowns::default(),
             spare: Vec::new(),
         }
     }
@@ -57,76 +78,143 @@ impl<const S: usize> Buffers<S> {
         self.spare.push(configuration);
     }
 
-    /// Puts `strains` + fraction × the last step into `trial`.
-    pub(crate) fn move_by(&mut self, strains: &StageStrains<S>, fraction: f64) {
-        self.trial.clear();
-        let pairs = strains.iter().zip(&self.step);
-        self.trial.extend(
-            pairs.map(|(element, d)| -> [_; S] { std::array::from_fn(|k| element[k] + d[k] * fraction) }),
-        );
+    /// Puts `unknowns` + fraction × the last step into `trial`.
+    pub(crate) fn move_by(&mut self, unknowns: &Unknowns<S>, fraction: f64) {
+        unknowns.moved(&self.step, fraction, &mut self.trial);
     }
 
     /// The Newton step about a state.
     pub(crate) fn newton_step<B: Elastic>(
         &mut self,
         mesh: &Mesh<'_, B, S>,
-        strains: &StageStrains<S>,
+        unknowns: &Unknowns<S>,
         state: &Configuration<S>,
         scale: &Scale,
     ) -> Result<Step> {
-        let n = mesh.elements();
-        self.condensed.resize_with(n.max(self.condensed.len()), Condensed::empty);
-        for i in 0..n {
-            self.condensed[i]
-                .fill(&mesh.table, &mesh.element(i, strains, state))
-                .ok_or_else(|| Error::Singular { matrix: "tangent of an element", s: mesh.node_s(i) })?;
+        if self.neutral.is_empty() {
+            self.condense(mesh, unknowns, state)?;
+            return self.solve_condensed(mesh, state, scale);
         }
-        let elements = &self.condensed[..n];
-        let tip = Tip { tangent: &state.tip_load.tangent, alone: mesh.rod.loads().is_empty() };
-        if self.sweep.solve(elements, &state.node_wrench, &tip, scale, &mut self.nodes).is_none() {
-            self.solve_with_pivoting(mesh, state, scale)?;
-        }
-        self.increments(mesh, scale)
+        // singular but for rounding: a little stiffer, so that what there is of the modes stays small until it is taken out
+        let mut stiffer = state.clone();
+        stiffer.response.iter_mut().flatten().for_each(|response| response.tangent *= 1.0 + STIFFER);
+        self.condense(mesh, unknowns, &stiffer)?;
+        self.solve_condensed(mesh, &stiffer, scale)?;
+        self.without_neutral_modes(scale.length);
+        self.measured(scale.length)
     }
 
-    /// By elimination with pivoting inside a window of one element, for what the sweep cannot do.
-    fn solve_with_pivoting<B: Elastic>(
+    /// Takes the neutral modes out of the step, in the product Σ δω·δω L² + δν·δν over the stages.
+    fn without_neutral_modes(&mut self, length: f64) {
+        let product = |a: &StageStrains<S>, b: &StageStrains<S>| -> f64 {
+            let pair = |(a, b): (&crate::lie::Strain, &crate::lie::Strain)| {
+                a.angular.dot(&b.angular) * length * length + a.linear.dot(&b.linear)
+            };
+            a.iter().flatten().zip(b.iter().flatten()).map(pair).sum()
+        };
+        for mode in &self.neutral {
+            let part = -product(&self.step.strains, &mode.strains) / product(&mode.strains, &mode.strains);
+            if !part.is_finite() || mode.nodes.len() != self.step.nodes.len() {
+                continue;
+            }
+            for (to, from) in self.step.strains.iter_mut().flatten().zip(mode.strains.iter().flatten()) {
+                *to += *from * part;
+            }
+            for (to, from) in self.step.nodes.iter_mut().zip(&mode.nodes) {
+                to.0 += from.0 * part;
+                to.1 += from.1 * part;
+            }
+        }
+    }
+
+    /// The same about elements that are condensed.
+    pub(super) fn solve_condensed<B: Elastic>(
         &mut self,
         mesh: &Mesh<'_, B, S>,
         state: &Configuration<S>,
         scale: &Scale,
+    ) -> Result<Step> {
+        self.step.reactions.clear();
+        self.step.reactions.resize(mesh.rod.joints().len(), Vector6::zeros());
+        let swept = mesh.is_cantilever() && {
+            let forces_only = state.defect.is_empty() && mesh.rod.joints().is_empty();
+            let alone = mesh.rod.loads().is_empty() && forces_only;
+            let tip = Tip { tangent: &state.tip_load.tangent, alone };
+            let elements = &self.condensed[..mesh.elements()];
+            let nodes = &mut self.step.nodes;
+            self.sweep.solve(elements, &state.node_wrench, &tip, scale, nodes).is_some()
+        };
+        if !swept {
+            self.solve_with_pivoting(mesh, state, scale)?;
+        }
+        self.finish(mesh, scale)
+    }
+
+    /// The transfers of the elements, joints without a support taken into the element before them.
+    pub(super) fn condense<B: Elastic>(
+        &mut self,
+        mesh: &Mesh<'_, B, S>,
+        unknowns: &Unknowns<S>,
+        state: &Configuration<S>,
     ) -> Result<()> {
-        let mut left = EndRows { matrix: SMatrix::zeros(), rhs: SVector::zeros() };
-        left.matrix.fixed_view_mut::<6, 6>(0, 0).fill_with_identity();
-        let right = state.tip_rows(scale);
-        let transfers: Vec<_> =
-            self.condensed[..mesh.elements()].iter().map(|e| scale.transfer(&e.transfer)).collect();
-        let nodes = chain::solve(&left, &transfers, &right, |i| mesh.node_s(i))?;
-        self.nodes.clear();
-        self.nodes.extend(nodes.iter().map(|y| scale.unscale(y)));
+        let n = mesh.elements();
+        self.condensed.resize_with(n.max(self.condensed.len()), Condensed::empty);
+        let mut joints = state.joints.iter();
+        for i in 0..n {
+            let element = &mut self.condensed[i];
+            element
+                .fill(&mesh.table, &mesh.element(i, &unknowns.strains, state))
+                .ok_or_else(|| Error::Singular { matrix: "tangent of an element", s: mesh.node_s(i) })?;
+            if let Some(defect) = state.defect.get(i) {
+                element.transfer.wrench += defect.to_vector();
+            }
+            let Some(j) = mesh.joint_at(i + 1) else { continue };
+            let Some(joint) = joints.next() else { continue };
+            let fixed = &mesh.rod.joints()[j];
+            if fixed.fixture.support.is_free() {
+                pass(&mut element.transfer, &fixed.corner, &joint.load);
+            }
+        }
         Ok(())
     }
 
     /// The strains from the nodes, and the size of it all.
-    fn increments<B: Elastic>(&mut self, mesh: &Mesh<'_, B, S>, scale: &Scale) -> Result<Step> {
-        let length = scale.length;
+    fn finish<B: Elastic>(&mut self, mesh: &Mesh<'_, B, S>, scale: &Scale) -> Result<Step> {
+        self.step.strains.clear();
+        let nodes = self.step.nodes.iter().take(mesh.elements());
+        self.step.strains.extend(
+            nodes.zip(&self.condensed).map(|((zeta, wrench), element)| element.strain_step(zeta, wrench)),
+        );
+        self.measured(scale.length)
+    }
+
+    /// How large the step is.
+    fn measured(&self, length: f64) -> Result<Step> {
         let mut step = Step { size: 0.0, rotation: 0.0 };
-        self.step.clear();
-        for (i, (zeta, wrench)) in self.nodes.iter().enumerate() {
+        for (zeta, _) in &self.step.nodes {
             step.rotation = step.rotation.max(zeta.fixed_rows::<3>(0).norm());
             step.size = step.size.max(zeta.fixed_rows::<3>(3).norm() / length);
-            if i < mesh.elements() {
-                let increment = self.condensed[i].strain_step(zeta, wrench);
-                for strain in &increment {
-                    step.size = step.size.max(strain.linear.norm()).max(strain.angular.norm() * length);
-                }
-                self.step.push(increment);
-            }
+        }
+        for strain in self.step.strains.iter().flatten() {
+            step.size = step.size.max(strain.linear.norm()).max(strain.angular.norm() * length);
         }
         step.size = step.size.max(step.rotation);
-        if !(step.size.is_finite() && self.nodes.iter().all(|(zeta, _)| zeta.norm().is_finite())) {
+        let mut nodes = self.step.nodes.iter();
+        if !(step.size.is_finite() && nodes.all(|(zeta, wrench)| (zeta + wrench).norm().is_finite())) {
             return Err(Error::Singular { matrix: "tangent of the rod", s: length });
         }
         Ok(step)
     }
+}
+
+/// Takes a corner and a point load into the transfer before them: ζ⁺ = Ad_C⁻¹ ζ⁻, δΛ⁺ = Ad_Cᵀ (δΛ⁻ − D ζ⁻).
+fn pass(t: &mut Transfer, corner: &Pose, load: &LoadWrench) {
+    let (inverse, transpose) =
+        (corner.adjoint_inverse().to_matrix(), corner.adjoint().to_matrix().transpose());
+    t.wrench_from_zeta = transpose * (t.wrench_from_zeta - load.tangent * t.zeta_from_zeta);
+    t.wrench_from_wrench = transpose * (t.wrench_from_wrench - load.tangent * t.zeta_from_wrench);
+    t.wrench = transpose * (t.wrench - load.tangent * t.zeta);
+    t.zeta_from_zeta = inverse * t.zeta_from_zeta;
+    t.zeta_from_wrench = inverse * t.zeta_from_wrench;
+    t.zeta = inverse * t.zeta;
 }

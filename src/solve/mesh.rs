@@ -1,35 +1,79 @@
 //! Where the elements of a rod lie, and what is known about it there before anything is solved.
 
+use super::unknowns::StageStrains;
 use crate::body::Elastic;
-use crate::lie::{Strain, Twist};
+use crate::lie::{Pose, Strain, Twist};
 use crate::rod::Rod;
 use crate::rod::collocation::Collocation;
-
-/// Strains Δξ at the Gauss stages of every element.
-pub(crate) type StageStrains<const S: usize> = Vec<[Strain; S]>;
+use crate::rod::element::Kinematics;
+use crate::rod::support::Support;
 
 /// A mesh of collocation elements on a rod, of lengths that may differ.
 pub(crate) struct Mesh<'a, B, const S: usize> {
     pub(crate) rod: &'a Rod<B>,
     pub(crate) table: Collocation<S>,
-    /// Arc lengths of the nodes, from 0 to L.
+    /// Arc lengths of the nodes, from 0 to L; every joint and every [breakpoint](Elastic::breakpoints) of the body is one of them.
     nodes: Vec<f64>,
+    /// Node and number of every joint, along the rod.
+    joints: Vec<(usize, usize)>,
     /// ξ* at the stages.
     reference: Vec<[Twist; S]>,
+    /// Where a solve starts.
+    pub(crate) start: Start,
+    /// The loads are multiplied by this, and the supports have come this part of the way from the start to what they hold.
+    pub(crate) load_factor: f64,
+}
+
+/// The reference shape, placed where a solve starts.
+#[derive(Clone, Debug)]
+pub(crate) struct Start {
+    pub(crate) base: Pose,
+    /// χ of the tip against its support.
+    pub(crate) tip: [f64; 6],
+    /// χ of the joints against theirs.
+    pub(crate) joints: Vec<[f64; 6]>,
 }
 
 impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
-    /// Elements of equal length.
+    /// So many elements, of equal length but for joints and breakpoints; more where those ask for more.
     pub(crate) fn uniform(rod: &'a Rod<B>, elements: usize) -> Self {
         let length = rod.body().length();
-        Self::at(rod, (0..=elements).map(|i| length * (i as f64 / elements as f64)).collect())
+        let mut stops: Vec<f64> = rod.joints().iter().map(|joint| joint.s).collect();
+        stops.extend(rod.body().breakpoints().into_iter().filter(|s| *s > 0.0 && *s < length));
+        stops.push(length);
+        stops.sort_by(f64::total_cmp);
+        stops.dedup();
+        let mut nodes = vec![0.0];
+        let mut from = 0.0;
+        for to in stops {
+            let share = (elements as f64 * (to - from) / length).round().max(1.0) as usize;
+            nodes.extend((1..share).map(|i| from + (to - from) * (i as f64 / share as f64)));
+            nodes.push(to);
+            from = to;
+        }
+        Self::at(rod, nodes)
     }
 
     fn at(rod: &'a Rod<B>, nodes: Vec<f64>) -> Self {
-        let mut mesh = Self { rod, table: Collocation::gauss(), nodes, reference: Vec::new() };
+        let joints = rod.joints().iter().enumerate();
+        let joints = joints.map(|(j, joint)| (nodes.partition_point(|s| *s < joint.s), j)).collect();
+        let base = &rod.base_fixture().support;
+        let start = Start { base: base.pose_at(&base.held()), tip: [0.0; 6], joints: Vec::new() };
+        let mut mesh = Self {
+            rod,
+            table: Collocation::gauss(),
+            nodes,
+            joints,
+            reference: Vec::new(),
+            start,
+            load_factor: 1.0,
+        };
         mesh.reference = (0..mesh.elements())
             .map(|i| std::array::from_fn(|k| rod.body().reference(mesh.stage_s(i, k)).twist))
             .collect();
+        if !mesh.is_cantilever() {
+            mesh.start = mesh.placed();
+        }
         mesh
     }
 
@@ -42,7 +86,72 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
             }
             nodes.push(self.nodes[i + 1]);
         }
-        Self::at(self.rod, nodes)
+        Self { load_factor: self.load_factor, ..Self::at(self.rod, nodes) }
+    }
+
+    /// Whether the base is clamped in the frame of its support and nothing else holds the rod.
+    pub(crate) fn is_cantilever(&self) -> bool {
+        let base = &self.rod.base_fixture().support;
+        base.is_clamped() && self.rod.tip_fixture().support.is_free() && !self.has_interior_supports()
+    }
+
+    pub(crate) fn has_interior_supports(&self) -> bool {
+        self.rod.joints().iter().any(|joint| !joint.fixture.support.is_free())
+    }
+
+    /// The reference shape, placed by the first support that holds it.
+    fn placed(&self) -> Start {
+        let (base, tip) = (&self.rod.base_fixture().support, &self.rod.tip_fixture().support);
+        let (to_joint, to_tip) = self.reference_poses();
+        let held = |support: &Support| support.pose_at(&support.held());
+        let joints = self.rod.joints().iter().zip(&to_joint);
+        let first = if !base.is_free() {
+            held(base)
+        } else if !tip.is_free() {
+            held(tip) * to_tip.inverse()
+        } else {
+            let mut held_joints = joints.clone().filter(|(joint, _)| !joint.fixture.support.is_free());
+            held_joints
+                .next()
+                .map_or_else(Pose::identity, |(joint, to)| held(&joint.fixture.support) * to.inverse())
+        };
+        Start {
+            base: first,
+            tip: tip.coordinates(&(first * to_tip)),
+            joints: joints.map(|(joint, to)| joint.fixture.support.coordinates(&(first * *to))).collect(),
+        }
+    }
+
+    /// Poses of the joints (before their corners) and of the tip in the frame of the base, at rest.
+    fn reference_poses(&self) -> (Vec<Pose>, Pose) {
+        let mut pose = Pose::identity();
+        let mut at_joints = Vec::new();
+        for i in 0..self.elements() {
+            pose = pose * Kinematics::new(&self.table, &self.reference[i], self.h(i)).end;
+            if let Some(j) = self.joint_at(i + 1) {
+                at_joints.push(pose);
+                pose = pose * self.rod.joints()[j].corner;
+            }
+        }
+        (at_joints, pose)
+    }
+
+    /// The joint at a node.
+    pub(crate) fn joint_at(&self, node: usize) -> Option<usize> {
+        if self.joints.is_empty() {
+            return None;
+        }
+        let found = self.joints.binary_search_by_key(&node, |(at, _)| *at);
+        found.ok().map(|k| self.joints[k].1)
+    }
+
+    /// What the supports hold at the load factor, from where the start has it.
+    pub(crate) fn target(&self, support: &Support, start: &[f64; 6]) -> [f64; 6] {
+        let held = support.held();
+        if self.load_factor == 1.0 {
+            return held;
+        }
+        std::array::from_fn(|j| start[j] + self.load_factor * (held[j] - start[j]))
     }
 
     pub(crate) fn elements(&self) -> usize {

@@ -3,23 +3,35 @@
 //! What lives here drives the elements of [`rod`](crate::rod): when to step, how far, when to stop, and what to tell the user. It
 //! prints nothing; give a solve an observer to watch it.
 
+mod assembly;
 mod cascade;
 mod chain;
+mod continuation;
 mod describe;
+pub mod dynamics;
 mod equilibrium;
 mod estimate;
 mod failure;
+mod globalise;
 mod linear;
 mod mesh;
 mod newton;
+mod path;
 mod report;
+mod rigid;
+mod scale;
 mod solution;
+mod stability;
 mod statics;
 mod sweep;
+mod tendon_length;
+mod unknowns;
 mod workspace;
 
 pub use failure::{Failure, Reason};
-pub use report::{ErrorEstimate, Iteration, Report};
+pub use path::{Buckling, EquilibriumPath, PathEnd, PathEvent, PathEventKind, PathOptions, PathState};
+pub use report::{ErrorEstimate, Iteration, Report, Rung, Stability};
 pub use solution::{Node, StaticSolution};
 pub use statics::{Order, Statics};
+pub use tendon_length::TendonSolution;
 pub use workspace::Workspace;

@@ -1,10 +1,12 @@
-//! Newton's method on the stage strains of one mesh.
+//! Newton's method on the unknowns of one mesh.
 
-use super::equilibrium::{Configuration, Scale};
+use super::equilibrium::Configuration;
 use super::failure::Reason;
 use super::linear::{Buffers, Step};
-use super::mesh::{Mesh, StageStrains};
+use super::mesh::Mesh;
 use super::report::Iteration;
+use super::scale::Scale;
+use super::unknowns::Unknowns;
 use crate::body::Elastic;
 use crate::error::Error;
 
@@ -66,7 +68,7 @@ pub(crate) struct Newton<'o> {
 
 /// What Newton's method ended with.
 pub(crate) struct Outcome<const S: usize> {
-    pub(crate) strains: StageStrains<S>,
+    pub(crate) unknowns: Unknowns<S>,
     pub(crate) state: Option<Configuration<S>>,
     pub(crate) residual: f64,
     /// How many iterations were made.
@@ -75,18 +77,18 @@ pub(crate) struct Outcome<const S: usize> {
 }
 
 impl Newton<'_> {
-    /// Iterates from the given strains until a full step is below the tolerance.
+    /// Iterates from the given unknowns until a full step is below the tolerance.
     pub(crate) fn solve<B: Elastic, const S: usize>(
         &mut self,
         mesh: &Mesh<'_, B, S>,
-        start: StageStrains<S>,
+        start: Unknowns<S>,
         buffers: &mut Buffers<S>,
         history: &mut Vec<Iteration>,
     ) -> Outcome<S> {
         let mut out =
-            Outcome { strains: start, state: None, residual: f64::INFINITY, iterations: 0, failure: None };
+            Outcome { unknowns: start, state: None, residual: f64::INFINITY, iterations: 0, failure: None };
         let mut state = buffers.configuration();
-        if let Err(error) = mesh.configure(&out.strains, &mut state) {
+        if let Err(error) = mesh.configure(&out.unknowns, &mut state) {
             out.failure = Some(Reason::Start(error));
             return out;
         }
@@ -95,7 +97,7 @@ impl Newton<'_> {
         for iteration in 0..self.max_iterations {
             let scale = scale(mesh, &state);
             out.residual = relative_residual(&state, &scale);
-            let step = match buffers.newton_step(mesh, &out.strains, &state, &scale) {
+            let step = match buffers.newton_step(mesh, &out.unknowns, &state, &scale) {
                 Ok(step) => step,
                 Err(error) => {
                     out.failure = Some(Reason::Singular { iteration, error });
@@ -103,14 +105,14 @@ impl Newton<'_> {
                 }
             };
             let cap = if step.rotation > ROTATION_CAP { ROTATION_CAP / step.rotation } else { 1.0 };
-            let fraction = match admissible(mesh, &out.strains, buffers, cap, &mut trial) {
+            let fraction = match admissible(mesh, &out.unknowns, buffers, cap, &mut trial) {
                 Ok(fraction) => fraction,
                 Err((fraction, error)) => {
                     out.failure = Some(Reason::NoAdmissibleStep { iteration, fraction, error });
                     break;
                 }
             };
-            std::mem::swap(&mut out.strains, &mut buffers.trial);
+            std::mem::swap(&mut out.unknowns, &mut buffers.trial);
             std::mem::swap(&mut state, &mut trial);
             out.iterations += 1;
             self.record(mesh.elements(), out.residual, &step, fraction, history);
@@ -148,14 +150,14 @@ impl Newton<'_> {
 }
 
 /// Units for the chain: the rod's length, and the force its bending stiffness makes of it.
-fn scale<B: Elastic, const S: usize>(mesh: &Mesh<'_, B, S>, state: &Configuration<S>) -> Scale {
+pub(crate) fn scale<B: Elastic, const S: usize>(mesh: &Mesh<'_, B, S>, state: &Configuration<S>) -> Scale {
     let length = mesh.rod.body().length();
     let k = &state.response[0][0].tangent;
     let bending = k[(0, 0)].abs().max(k[(1, 1)].abs()).max(f64::MIN_POSITIVE);
     Scale { length, force: bending / (length * length) }
 }
 
-/// The largest residual over the stages, relative to the largest wrench there is.
+/// The largest residual over stages and nodes, relative to the largest wrench there is.
 fn relative_residual<const S: usize>(state: &Configuration<S>, scale: &Scale) -> f64 {
     let mut residual: f64 = 0.0;
     let mut wrench: f64 = 0.0;
@@ -167,21 +169,24 @@ fn relative_residual<const S: usize>(state: &Configuration<S>, scale: &Scale) ->
                 .max(scale.wrench_size(&state.stage_wrench[i][k]))
                 .max(scale.wrench_size(&state.response[i][k].wrench));
         }
+        if let Some(defect) = state.defect.get(i) {
+            residual = residual.max(scale.wrench_size(defect));
+        }
     }
     if wrench > 0.0 { residual / wrench } else { residual }
 }
 
-/// The longest of cap, cap/2, cap/4, … that leads to an admissible state; that state is in `trial`, its strains in `buffers.trial`.
+/// The longest of cap, cap/2, cap/4, … that leads to an admissible state; that state is in `trial`, its unknowns in `buffers.trial`.
 fn admissible<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
-    strains: &StageStrains<S>,
+    unknowns: &Unknowns<S>,
     buffers: &mut Buffers<S>,
     cap: f64,
     trial: &mut Configuration<S>,
 ) -> Result<f64, (f64, Error)> {
     let mut fraction = cap;
     for halving in 0..=HALVINGS {
-        buffers.move_by(strains, fraction);
+        buffers.move_by(unknowns, fraction);
         match mesh.configure(&buffers.trial, trial) {
             Ok(()) => return Ok(fraction),
             Err(error) if halving == HALVINGS => return Err((fraction, error)),

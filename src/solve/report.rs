@@ -2,6 +2,7 @@ use std::time::Duration;
 
 /// One Newton iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Iteration {
     /// Elements of the mesh it was taken on.
     pub elements: usize,
@@ -15,6 +16,7 @@ pub struct Iteration {
 
 /// How far the answer may be from the exact solution of the model, estimated from two meshes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ErrorEstimate {
     /// Of the positions of the nodes, m.
     pub position: f64,
@@ -39,8 +41,68 @@ impl ErrorEstimate {
     }
 }
 
+/// What a solve had to do to find its answer, in the order in which it is tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Rung {
+    /// Newton's method from rest, with steps that turn no node by more than a radian.
+    Newton,
+    /// A Newton method on a model of the energy that is kept convex: stiffer sections, until no mode of the model is unstable.
+    Regularised,
+    /// The loads, and the displacements that supports hold, brought on in steps.
+    LoadSteps,
+    /// The path of equilibria from rest, followed by its arc length.
+    ArcLength,
+}
+
+/// Whether an equilibrium would stay.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Stability {
+    /// The second variation of the energy under the conditions of the supports.
+    Index {
+        /// How many independent displacements lower the energy: the number of unstable modes. 0 is stable.
+        unstable: usize,
+        /// How many more leave it as it is, to second order.
+        neutral: usize,
+    },
+    /// The tangent of the section at s is not positive definite: the law has lost its convexity there.
+    Softening {
+        /// Arc length, m.
+        s: f64,
+    },
+    /// There is none to tell: a load has no potential, or no mesh was fine enough.
+    #[default]
+    Unknown,
+}
+
+impl Stability {
+    /// Whether it is known that the equilibrium would not stay.
+    pub fn is_unstable(&self) -> bool {
+        match self {
+            Self::Index { unstable, .. } => *unstable > 0,
+            Self::Softening { .. } => true,
+            Self::Unknown => false,
+        }
+    }
+}
+
+impl std::fmt::Display for Stability {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Index { unstable: 0, .. } => write!(f, "stable"),
+            Self::Index { unstable, .. } => write!(f, "unstable in {unstable} modes"),
+            Self::Softening { s } => {
+                write!(f, "the tangent of the section at s = {s} m is not positive definite")
+            }
+            Self::Unknown => write!(f, "stability unknown"),
+        }
+    }
+}
+
 /// How a solve went.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Report {
     /// Every Newton iteration, coarse mesh first.
     pub iterations: Vec<Iteration>,
@@ -48,11 +110,21 @@ pub struct Report {
     pub error: ErrorEstimate,
     /// The residual of the answer, as in [`Iteration::residual`].
     pub residual: f64,
+    /// What had to be done to find the answer.
+    pub rungs: Vec<Rung>,
+    /// Whether the answer would stay.
+    pub stability: Stability,
     /// Wall time.
     pub elapsed: Duration,
 }
 
 impl Report {
+    pub(super) fn reach(&mut self, rung: Rung) {
+        if !self.rungs.contains(&rung) {
+            self.rungs.push(rung);
+        }
+    }
+
     /// The iterations on the mesh of the answer.
     pub fn fine_iterations(&self) -> impl Iterator<Item = &Iteration> {
         let finest = self.iterations.iter().map(|i| i.elements).max();

@@ -3,6 +3,7 @@ use crate::lie::{Pose, Strain, Wrench};
 
 /// The state of the rod at one arc length.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Node {
     /// Arc length s, m.
     pub s: f64,
@@ -15,7 +16,10 @@ pub struct Node {
 }
 
 /// A rod in static equilibrium.
+///
+/// With the feature `serde` it can be written, as JSON for instance; its nodes, stages and report can be read back.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StaticSolution {
     pub(super) nodes: Vec<Node>,
     pub(super) stages: Vec<Node>,
@@ -43,6 +47,23 @@ impl StaticSolution {
     /// The node at the clamp.
     pub fn base(&self) -> &Node {
         &self.nodes[0]
+    }
+
+    /// ∫f ds over the rod by the Gauss rule of the elements, whose points are the [`stages`](Self::stages): as exact as the solution.
+    pub fn integrate(&self, f: impl Fn(&Node) -> f64) -> f64 {
+        // a joint has two nodes at one place, with no element between
+        let lengths: Vec<f64> =
+            self.nodes.windows(2).map(|ends| ends[1].s - ends[0].s).filter(|h| *h > 0.0).collect();
+        let weights: &[f64] = match self.stages.len() / lengths.len().max(1) {
+            1 => &[1.0],
+            2 => &[0.5, 0.5],
+            _ => &[5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0],
+        };
+        let stages = self.stages.chunks(weights.len());
+        let element = |(h, stages): (f64, &[Node])| -> f64 {
+            h * weights.iter().zip(stages).map(|(w, stage)| w * f(stage)).sum::<f64>()
+        };
+        lengths.into_iter().zip(stages).map(element).sum()
     }
 
     /// Strain energy ∫U ds, J.

@@ -4,6 +4,7 @@ use super::cascade::Cascade;
 use super::failure::{Failure, Reason};
 use super::linear::Buffers;
 use super::newton::{Newton, Stop};
+use super::path::{Buckling, EquilibriumPath, PathOptions, Walker};
 use super::report::{Iteration, Report};
 use super::solution::StaticSolution;
 use super::workspace::Workspace;
@@ -59,12 +60,15 @@ pub struct Statics {
     pub tolerance: f64,
     /// The largest number of Newton iterations on a mesh.
     pub max_iterations: usize,
+    /// Whether an equilibrium that would not stay, as a column straight beyond its critical load, is an answer. If not, the solver goes on to a stable
+    /// one; [`Report::stability`] says what the answer is.
+    pub accept_unstable: bool,
 }
 
 impl Default for Statics {
     /// 16 elements of order 4, tolerance 1e-9, at most 50 iterations.
     fn default() -> Self {
-        Self { accuracy: None, elements: 16, order: Order::Four, tolerance: 1e-9, max_iterations: 50 }
+        Self::DEFAULT
     }
 }
 
@@ -72,6 +76,16 @@ impl Default for Statics {
 const MAX_ELEMENTS: usize = 1_000_000;
 
 impl Statics {
+    /// The [default](Self::default) options, for constants.
+    pub const DEFAULT: Self = Self {
+        accuracy: None,
+        elements: 16,
+        order: Order::Four,
+        tolerance: 1e-9,
+        max_iterations: 50,
+        accept_unstable: false,
+    };
+
     /// To an accuracy, on a mesh of the solver's choice, with elements of order 6: they are the fastest at every accuracy from 1e-4 on.
     ///
     /// The error is that of the discretisation: a section whose quadrature is not exact adds its own (see
@@ -112,16 +126,95 @@ impl Statics {
         self.run(workspace, rod, &mut |_| ())
     }
 
+    /// Follows the equilibria of the rod from rest as its loads, and the displacements that its supports hold, grow with the load factor: by arc length,
+    /// through limit points and past bifurcations, on a mesh of [`elements`](Self::elements).
+    ///
+    /// # Errors
+    /// A [`Failure`] where the walk cannot begin. A walk that gets stuck later is an answer: see [`EquilibriumPath::end`].
+    pub fn trace<B: Elastic>(
+        &self,
+        rod: &Rod<B>,
+        options: &PathOptions,
+    ) -> Result<EquilibriumPath, Box<Failure>> {
+        self.options_are_sound()?;
+        let mut workspace = Workspace::default();
+        match self.order {
+            Order::Two => Walker::new(rod, self.elements, workspace.one(), options).path(),
+            Order::Four => Walker::new(rod, self.elements, workspace.two(), options).path(),
+            Order::Six => Walker::new(rod, self.elements, workspace.three(), options).path(),
+        }
+    }
+
+    /// The path that leaves the first bifurcation, along the mode that becomes unstable there; `None` where there is none up to the largest
+    /// factor of the options. Options as for [`trace`](Self::trace).
+    ///
+    /// # Errors
+    /// As [`trace`](Self::trace), and where no point of the branch is found.
+    pub fn trace_buckled<B: Elastic>(
+        &self,
+        rod: &Rod<B>,
+        options: &PathOptions,
+    ) -> Result<Option<EquilibriumPath>, Box<Failure>> {
+        self.options_are_sound()?;
+        let mut workspace = Workspace::default();
+        match self.order {
+            Order::Two => Walker::new(rod, self.elements, workspace.one(), options).buckled_path(),
+            Order::Four => Walker::new(rod, self.elements, workspace.two(), options).buckled_path(),
+            Order::Six => Walker::new(rod, self.elements, workspace.three(), options).buckled_path(),
+        }
+    }
+
+    /// The first load at which the rod loses its stability, on the path from rest, with the modes; `None` where it keeps it up to the largest factor
+    /// of the options.
+    ///
+    /// ```
+    /// use hyperrod::load::DeadWrench;
+    /// use hyperrod::solve::PathOptions;
+    /// use hyperrod::{Body, Pose, Rod, Statics, section::Stiffness};
+    /// use nalgebra::vector;
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let body = Body::new(1.0, Stiffness::diagonal([1.0, 4.0, 0.8, 1e6, 1e6, 1e6])?)?;
+    /// let push = DeadWrench::force(vector![0.0, 0.0, -1.0])?;
+    /// let column = Rod::clamped(body, Pose::identity()).with_tip_load(push);
+    /// let up_to = PathOptions { factors: [0.0, 10.0], ..PathOptions::default() };
+    /// let buckling = Statics::default().buckling(&column, &up_to)?.ok_or("it does not buckle")?;
+    /// let euler = std::f64::consts::PI.powi(2) / 4.0;
+    /// assert!((buckling.critical.load_factor / euler - 1.0).abs() < 1e-5);
+    /// assert!(buckling.modes[0].last().unwrap().linear.y.abs() > 0.5); // about x, the soft axis
+    /// # Ok(()) }
+    /// ```
+    ///
+    /// # Errors
+    /// As [`trace`](Self::trace).
+    pub fn buckling<B: Elastic>(
+        &self,
+        rod: &Rod<B>,
+        options: &PathOptions,
+    ) -> Result<Option<Buckling>, Box<Failure>> {
+        self.options_are_sound()?;
+        let mut workspace = Workspace::default();
+        match self.order {
+            Order::Two => Walker::new(rod, self.elements, workspace.one(), options).buckling(),
+            Order::Four => Walker::new(rod, self.elements, workspace.two(), options).buckling(),
+            Order::Six => Walker::new(rod, self.elements, workspace.three(), options).buckling(),
+        }
+    }
+
+    fn options_are_sound(&self) -> Result<(), Box<Failure>> {
+        self.check().map_err(|error| {
+            let reason = Reason::Options(error);
+            Box::new(Failure { reason, report: Report::default(), last: None })
+        })
+    }
+
     fn run<B: Elastic>(
         &self,
         workspace: &mut Workspace,
         rod: &Rod<B>,
         observer: &mut dyn FnMut(&Iteration),
     ) -> Result<StaticSolution, Box<Failure>> {
-        if let Err(error) = self.check() {
-            let reason = Reason::Options(error);
-            return Err(Box::new(Failure { reason, report: Report::default(), last: None }));
-        }
+        self.options_are_sound()?;
         match self.order {
             Order::Two => self.solve_on(workspace.one(), rod, observer),
             Order::Four => self.solve_on(workspace.two(), rod, observer),
@@ -155,7 +248,7 @@ impl Statics {
         let start = Instant::now();
         let stop = Stop::Step(self.tolerance);
         let newton = Newton { max_iterations: self.max_iterations, stop, observer };
-        let mut cascade = Cascade::<B, S>::new(rod, newton, buffers);
+        let mut cascade = Cascade::<B, S>::new(rod, newton, buffers, self.accept_unstable);
         let solved = match self.accuracy {
             None => cascade.on_mesh(self.elements.div_ceil(2)),
             Some(accuracy) => cascade.to(accuracy),

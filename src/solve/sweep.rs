@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3, Vector6};
 
-use super::equilibrium::Scale;
 use super::linear::NodeStep;
+use super::scale::Scale;
 use crate::lie::{Wrench, so3::hat};
 use crate::rod::condense::{Condensed, Transfer};
 

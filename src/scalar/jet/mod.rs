@@ -50,9 +50,11 @@ macro_rules! each {
 }
 
 /// Where second derivative (i, j), i ≤ j, of n variables is stored.
+///
+/// Saturating, as an unoptimised build evaluates it also where i or j is no variable and nothing is stored.
 #[inline(always)]
 const fn packed(n: usize, i: usize, j: usize) -> usize {
-    i * n + j - i * (i + 1) / 2
+    (i * n + j).saturating_sub(i * (i + 1) / 2)
 }
 
 /// Whether (i, j) is in the upper triangle, the diagonal included.

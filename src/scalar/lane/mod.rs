@@ -48,16 +48,16 @@ pub trait Lane:
         Self::load(&values)
     }
 
-    /// Writes the lanes to the first [`LANES`](Self::LANES) numbers of a slice, which must have as many.
-    #[inline(always)]
-    fn store(self, slice: &mut [f64]) {
-        for (i, value) in slice[..Self::LANES].iter_mut().enumerate() {
-            *value = self.lane(i);
-        }
-    }
-
     /// The number in lane `i`.
     fn lane(self, i: usize) -> f64;
+
+    /// Writes the numbers into a slice, as many as it has room for.
+    #[inline(always)]
+    fn store(self, slice: &mut [f64]) {
+        for (i, to) in slice.iter_mut().enumerate().take(Self::LANES) {
+            *to = self.lane(i);
+        }
+    }
 
     /// self × a + b, fused where the machine does so.
     fn mul_add(self, a: Self, b: Self) -> Self;
@@ -102,6 +102,12 @@ pub trait Lane:
             smallest = smallest.min(self.lane(i));
         }
         smallest
+    }
+
+    /// The number of lane `i` in every lane.
+    #[inline(always)]
+    fn spread(self, i: usize) -> Self {
+        Self::splat(self.lane(i))
     }
 
     /// A function of each lane on its own: what has no vector form.

@@ -239,6 +239,7 @@ impl Kernel for Basic {
             ("zip_map", each(a.zip_map(b, f64::atan2)), scalar(&f64::atan2)),
             ("store", stored[1..=L::LANES].to_vec(), scalar(&|a, _| a)),
             ("store, others", [&stored[..1], &stored[L::LANES + 1..]].concat(), vec![7.0; 10 - L::LANES]),
+            ("spread", each(a.spread(L::LANES - 1)), scalar(&|_, _| self.a[L::LANES - 1])),
             ("sum_each", sums.to_vec(), (0..MAX_LANES).map(|k| sum_of_integers(k, L::LANES)).collect()),
             // NaN and ∞ replaced: with NaN the smallest is not defined
             ("min_lane", vec![below.min_lane()], vec![scalar(&finite).into_iter().fold(INF, f64::min)]),

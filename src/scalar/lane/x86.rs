@@ -183,12 +183,6 @@ impl Lane for Avx2 {
         unsafe { Self(_mm256_loadu_pd(slice.as_ptr())) }
     }
     #[inline(always)]
-    fn store(self, slice: &mut [f64]) {
-        assert!(slice.len() >= Self::LANES);
-        // SAFETY: the slice has four numbers; unaligned stores are allowed.
-        unsafe { _mm256_storeu_pd(slice.as_mut_ptr(), self.0) }
-    }
-    #[inline(always)]
     fn sum_each(values: &[Self; MAX_LANES], out: &mut [f64; MAX_LANES]) {
         let [a, b, c, d, e, f, g, h] = *values;
         Self(sums_of_four(a.0, b.0, c.0, d.0)).store(&mut out[..4]);
@@ -200,6 +194,18 @@ impl Lane for Avx2 {
         // SAFETY: the array has four numbers.
         unsafe { _mm256_storeu_pd(values.as_mut_ptr(), self.0) };
         values[i]
+    }
+    #[inline(always)]
+    fn store(self, slice: &mut [f64]) {
+        if slice.len() >= Self::LANES {
+            // SAFETY: the slice has four numbers; unaligned stores are allowed.
+            unsafe { _mm256_storeu_pd(slice.as_mut_ptr(), self.0) };
+            return;
+        }
+        let mut values = [0.0; 4];
+        // SAFETY: the array has four numbers.
+        unsafe { _mm256_storeu_pd(values.as_mut_ptr(), self.0) };
+        slice.copy_from_slice(&values[..slice.len()]);
     }
     #[inline(always)]
     fn mul_add(self, a: Self, b: Self) -> Self {
@@ -269,12 +275,6 @@ impl Lane for Avx512 {
         unsafe { Self(_mm512_mask_loadu_pd(_mm512_set1_pd(fill), mask, slice.as_ptr())) }
     }
     #[inline(always)]
-    fn store(self, slice: &mut [f64]) {
-        assert!(slice.len() >= Self::LANES);
-        // SAFETY: the slice has eight numbers; unaligned stores are allowed.
-        unsafe { _mm512_storeu_pd(slice.as_mut_ptr(), self.0) }
-    }
-    #[inline(always)]
     fn sum_each(values: &[Self; MAX_LANES], out: &mut [f64; MAX_LANES]) {
         let [a, b, c, d, e, f, g, h] = *values;
         let first = quarters(pairs(a, b), pairs(c, d));
@@ -287,6 +287,18 @@ impl Lane for Avx512 {
         // SAFETY: the array has eight numbers.
         unsafe { _mm512_storeu_pd(values.as_mut_ptr(), self.0) };
         values[i]
+    }
+    #[inline(always)]
+    fn store(self, slice: &mut [f64]) {
+        if slice.len() >= Self::LANES {
+            // SAFETY: the slice has eight numbers; unaligned stores are allowed.
+            unsafe { _mm512_storeu_pd(slice.as_mut_ptr(), self.0) };
+            return;
+        }
+        let mut values = [0.0; 8];
+        // SAFETY: the array has eight numbers.
+        unsafe { _mm512_storeu_pd(values.as_mut_ptr(), self.0) };
+        slice.copy_from_slice(&values[..slice.len()]);
     }
     #[inline(always)]
     fn mul_add(self, a: Self, b: Self) -> Self {

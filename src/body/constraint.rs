@@ -1,0 +1,82 @@
+/// The strains that a rod cannot have: they keep their reference value, Δξ_k = 0, whatever the wrench.
+///
+/// The components of the wrench that go with them are reactions: the balance gives them, not the law, whose answer to these strains is not asked for.
+/// That is the limit of a stiffness without bound, taken exactly; there is no penalty. A solve has fewer unknowns for it.
+///
+/// | constraint | Δξ that are zero |
+/// |---|---|
+/// | [`inextensible`](Self::inextensible) | Δν_z |
+/// | [`unshearable`](Self::unshearable) | Δν_x, Δν_y |
+/// | [`kirchhoff`](Self::kirchhoff) | Δν: both |
+/// | [`twist_free`](Self::twist_free) | Δω_z |
+/// | [`planar`](Self::planar) | Δω_x, Δω_z, Δν_y: bending about y, in the plane of x and z |
+/// | [`fixing`](Self::fixing) | any |
+///
+/// ```
+/// use hyperrod::body::Constraint;
+/// use hyperrod::{Body, section::Stiffness};
+/// # fn main() -> hyperrod::Result<()> {
+/// let section = Stiffness::diagonal([1.0; 6])?; // the last three are of no consequence
+/// let wire = Body::new(1.0, section)?.with_constraint(Constraint::kirchhoff());
+/// let elastica = Constraint::kirchhoff().and(Constraint::planar());
+/// assert_eq!(elastica.fixed(), [true, false, true, true, true, true]);
+/// # let _ = wire; Ok(()) }
+/// ```
+///
+/// Source: Antman (2005), *Nonlinear Problems of Elasticity*, ch. 8, for constrained rods and their reactions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Constraint {
+    fixed: [bool; 6],
+}
+
+impl Constraint {
+    /// All strains free.
+    pub const fn none() -> Self {
+        Self { fixed: [false; 6] }
+    }
+
+    /// Any set, in the order (ω_x, ω_y, ω_z, ν_x, ν_y, ν_z): `true` fixes.
+    pub const fn fixing(strains: [bool; 6]) -> Self {
+        Self { fixed: strains }
+    }
+
+    /// The axis keeps its length.
+    pub const fn inextensible() -> Self {
+        Self::fixing([false, false, false, false, false, true])
+    }
+
+    /// Sections stay as they stand to the axis at rest.
+    pub const fn unshearable() -> Self {
+        Self::fixing([false, false, false, true, true, false])
+    }
+
+    /// Inextensible and unshearable.
+    pub const fn kirchhoff() -> Self {
+        Self::fixing([false, false, false, true, true, true])
+    }
+
+    /// Keeps its twist.
+    pub const fn twist_free() -> Self {
+        Self::fixing([false, false, true, false, false, false])
+    }
+
+    /// Stays in the plane of its directors x and z, and bends about y. The reference must lie in that plane for the rod to do so.
+    pub const fn planar() -> Self {
+        Self::fixing([true, false, true, false, true, false])
+    }
+
+    /// Both constraints together.
+    pub fn and(self, other: Self) -> Self {
+        Self { fixed: std::array::from_fn(|i| self.fixed[i] || other.fixed[i]) }
+    }
+
+    /// Which strains are fixed.
+    pub const fn fixed(&self) -> [bool; 6] {
+        self.fixed
+    }
+
+    /// Whether all strains are free.
+    pub fn is_none(&self) -> bool {
+        *self == Self::none()
+    }
+}

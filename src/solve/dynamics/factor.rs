@@ -1,0 +1,253 @@
+//! The linearised elements of a rod, factored from the tip to the base, and solved for as many residuals as one likes.
+//!
+//! The part of the rod beyond node i answers to a displacement of it with δΛ_i = R_i ζ_i + s_i. Put into element i − 1 this leaves a
+//! system for the strains of that element alone, which is factored. It breaks only where that part, clamped at node i, is at a critical
+//! load; with inertia it has none.
+
+use nalgebra::{Matrix6, Vector6};
+
+use crate::lie::{Strain, Twist, TwistMap, Wrench};
+use crate::rod::adjoint::AdjointElement;
+
+/// The largest number of strains of an element.
+const MAX: usize = 18;
+
+/// One element: its strains from its residual, from the answer s of what is beyond it, and from the displacement of its first node.
+pub(super) struct FactoredElement<const S: usize> {
+    /// L and U of the scaled matrix, rows in the order of elimination.
+    lu: [[f64; MAX]; MAX],
+    order: [usize; MAX],
+    scale: [f64; MAX],
+    /// δξ from ζ_i.
+    from_node: [Matrix6<f64>; S],
+    q: [Matrix6<f64>; S],
+    end: [TwistMap; S],
+    end_inverse: TwistMap,
+}
+
+impl<const S: usize> FactoredElement<S> {
+    pub(super) fn empty() -> Self {
+        let one = TwistMap::identity();
+        Self {
+            lu: [[0.0; MAX]; MAX],
+            order: [0; MAX],
+            scale: [0.0; MAX],
+            from_node: [Matrix6::zeros(); S],
+            q: [Matrix6::zeros(); S],
+            end: [one; S],
+            end_inverse: one,
+        }
+    }
+
+    /// Factors an element that already contains the relation at its end, and returns the one at its start. `None` where it is singular.
+    pub(super) fn factor(&mut self, element: &AdjointElement<S>) -> Option<Matrix6<f64>> {
+        self.load(element);
+        self.eliminate()?;
+        (self.q, self.end, self.end_inverse) = (element.q, element.end, element.end_inverse);
+        self.from_node = [Matrix6::zeros(); S];
+        let mut relation = element.u;
+        for c in 0..6 {
+            let mut column = [0.0; MAX];
+            for k in 0..S {
+                for r in 0..6 {
+                    column[6 * k + r] = element.p[k][(r, c)];
+                }
+            }
+            self.substitute(&mut column);
+            for k in 0..S {
+                for r in 0..6 {
+                    self.from_node[k][(r, c)] = column[6 * k + r];
+                }
+            }
+        }
+        for k in 0..S {
+            relation -= element.q[k] * self.from_node[k];
+        }
+        Some(relation)
+    }
+
+    /// Copies A, scaled to a unit diagonal.
+    fn load(&mut self, element: &AdjointElement<S>) {
+        for k in 0..S {
+            for r in 0..6 {
+                let diagonal = element.a[k][k][(r, r)].abs();
+                self.scale[6 * k + r] = if diagonal > 0.0 { 1.0 / diagonal.sqrt() } else { 1.0 };
+            }
+        }
+        for k in 0..S {
+            for m in 0..S {
+                for r in 0..6 {
+                    for c in 0..6 {
+                        self.lu[6 * k + r][6 * m + c] =
+                            element.a[k][m][(r, c)] * self.scale[6 * k + r] * self.scale[6 * m + c];
+                    }
+                }
+            }
+        }
+    }
+
+    /// Gaussian elimination with row pivoting.
+    fn eliminate(&mut self) -> Option<()> {
+        let n = 6 * S;
+        self.order = std::array::from_fn(|r| r);
+        for column in 0..n {
+            let mut pivot = column;
+            for row in column + 1..n {
+                if self.lu[row][column].abs() > self.lu[pivot][column].abs() {
+                    pivot = row;
+                }
+            }
+            let size = self.lu[pivot][column].abs();
+            if !(size > f64::MIN_POSITIVE && size.is_finite()) {
+                return None;
+            }
+            self.lu.swap(column, pivot);
+            self.order.swap(column, pivot);
+            let pivot_row = self.lu[column];
+            let inverse = 1.0 / pivot_row[column];
+            for row in &mut self.lu[column + 1..n] {
+                let factor = row[column] * inverse;
+                row[column] = factor;
+                for c in column + 1..n {
+                    row[c] -= factor * pivot_row[c];
+                }
+            }
+            // the inverse is what the substitution wants
+            self.lu[column][column] = inverse;
+        }
+        Some(())
+    }
+
+    /// A⁻¹ b in place.
+    #[inline(always)]
+    fn substitute(&self, b: &mut [f64; MAX]) {
+        let n = 6 * S;
+        let mut x = [0.0; MAX];
+        for row in 0..n {
+            let from = self.order[row];
+            let mut value = b[from] * self.scale[from];
+            for c in 0..row {
+                value -= self.lu[row][c] * x[c];
+            }
+            x[row] = value;
+        }
+        for row in (0..n).rev() {
+            let mut value = x[row];
+            for c in row + 1..n {
+                value -= self.lu[row][c] * x[c];
+            }
+            x[row] = value * self.lu[row][row];
+        }
+        for c in 0..n {
+            b[c] = x[c] * self.scale[c];
+        }
+    }
+
+    /// δξ for a first node that stays, and s at that node, from the residual and s at the end.
+    #[inline]
+    pub(super) fn back(&self, residual: &[Wrench; S], s: &Wrench) -> ([Strain; S], Wrench) {
+        let mut b = [0.0; MAX];
+        for k in 0..S {
+            let row = (self.end[k].apply_transpose(s) - residual[k]).to_array();
+            b[6 * k..6 * k + 6].copy_from_slice(&row);
+        }
+        self.substitute(&mut b);
+        let mut answer = self.end_inverse.apply_transpose(s).to_vector();
+        let mut strain = [Strain::zero(); S];
+        for k in 0..S {
+            let x = Vector6::from_column_slice(&b[6 * k..6 * k + 6]);
+            answer -= self.q[k] * x;
+            strain[k] = Strain::from_vector(&x);
+        }
+        (strain, Wrench::from_vector(&answer))
+    }
+
+    /// Adds what the displacement of the first node does to δξ, and returns that of the end.
+    #[inline]
+    pub(super) fn forth(&self, zeta: &Vector6<f64>, strain: &mut [Strain; S]) -> Vector6<f64> {
+        let node = Twist::from_vector(zeta);
+        let mut next = self.end_inverse.apply(&node);
+        for k in 0..S {
+            let moved = if *zeta == Vector6::zeros() {
+                Strain::zero()
+            } else {
+                Strain::from_vector(&(self.from_node[k] * zeta))
+            };
+            strain[k] += moved;
+            let d = Twist::new(strain[k].angular, strain[k].linear);
+            next += self.end[k].apply(&d);
+        }
+        next.to_vector()
+    }
+}
+
+impl<const S: usize> FactoredElement<S> {
+    /// Appends all numbers, which make the same element again.
+    pub(super) fn save(&self, into: &mut Vec<f64>) {
+        let n = 6 * S;
+        for row in &self.lu[..n] {
+            into.extend(&row[..n]);
+        }
+        into.extend(self.order[..n].iter().map(|&row| row as f64));
+        into.extend(&self.scale[..n]);
+        for k in 0..S {
+            into.extend(self.from_node[k].as_slice());
+            into.extend(self.q[k].as_slice());
+            into.extend(self.end[k].diagonal.as_slice());
+            into.extend(self.end[k].lower.as_slice());
+        }
+        into.extend(self.end_inverse.diagonal.as_slice());
+        into.extend(self.end_inverse.lower.as_slice());
+    }
+
+    /// The opposite of [`save`](Self::save); `None` where numbers are missing.
+    pub(super) fn restore(&mut self, from: &mut impl Iterator<Item = f64>) -> Option<()> {
+        let n = 6 * S;
+        let mut fill = |entries: &mut [f64]| {
+            entries.iter_mut().try_for_each(|entry| from.next().map(|number| *entry = number))
+        };
+        for row in &mut self.lu[..n] {
+            fill(&mut row[..n])?;
+        }
+        let mut order = [0.0; MAX];
+        fill(&mut order[..n])?;
+        self.order = order.map(|row| (row as usize).min(MAX - 1));
+        fill(&mut self.scale[..n])?;
+        for k in 0..S {
+            fill(self.from_node[k].as_mut_slice())?;
+            fill(self.q[k].as_mut_slice())?;
+            fill(self.end[k].diagonal.as_mut_slice())?;
+            fill(self.end[k].lower.as_mut_slice())?;
+        }
+        fill(self.end_inverse.diagonal.as_mut_slice())?;
+        fill(self.end_inverse.lower.as_mut_slice())
+    }
+}
+
+/// Six rows C_ζ ζ + C_Λ δΛ = d at the base.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BaseRows {
+    pub(super) zeta: Matrix6<f64>,
+    pub(super) wrench: Matrix6<f64>,
+}
+
+impl BaseRows {
+    /// ζ = d: the pose of the base is given.
+    pub(super) fn held() -> Self {
+        Self { zeta: Matrix6::identity(), wrench: Matrix6::zeros() }
+    }
+
+    /// δΛ = d: the wrench is given.
+    pub(super) fn free() -> Self {
+        Self { zeta: Matrix6::zeros(), wrench: Matrix6::identity() }
+    }
+
+    /// (C_ζ + C_Λ R)⁻¹, by which ζ = (…)(d − C_Λ s); rows and columns are scaled by the length. `None` where the base is not held.
+    pub(super) fn close(&self, relation: &Matrix6<f64>, length: f64) -> Option<Matrix6<f64>> {
+        let unit = |i: usize| if i < 3 { 1.0 } else { length };
+        let matrix = self.zeta + self.wrench * relation;
+        let scaled = Matrix6::from_fn(|r, c| matrix[(r, c)] * unit(r) * unit(c));
+        let inverse = scaled.try_inverse().filter(|m| m.iter().all(|v| v.is_finite()))?;
+        Some(Matrix6::from_fn(|r, c| inverse[(r, c)] * unit(r) * unit(c)))
+    }
+}

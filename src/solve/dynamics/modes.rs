@@ -1,0 +1,242 @@
+use nalgebra::{Cholesky, DMatrix, Matrix6, SymmetricEigen, Vector6};
+
+use super::begin::{balance, set_strains};
+use super::core::Core;
+use super::engine::on_mesh;
+use super::failure::{Failure, Reason};
+use super::options::Dynamics;
+use super::relation::Relation;
+use super::scene::{Movable, Scene};
+use super::state::Start;
+use crate::error::{Error, Result};
+use crate::lie::{Strain, Twist};
+use crate::material::Request;
+use crate::rod::adjoint::AdjointElement;
+use crate::solve::Order;
+
+/// A small vibration about an equilibrium: every section moves with ζ(s) cos ωt, small and in its own frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// ω², 1/s²; negative where the equilibrium is unstable, and zero but for rounding for a rigid motion of a free rod.
+    pub omega_squared: f64,
+    /// The displacements of the nodes, base to tip.
+    pub nodes: Vec<Twist>,
+    /// Displacements and strains at the Gauss stages, base to tip.
+    pub stages: Vec<ModeStage>,
+}
+
+/// A mode at a Gauss stage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModeStage {
+    /// Arc length s, m.
+    pub s: f64,
+    /// The weight of this stage in an integral over the rod, m.
+    pub weight: f64,
+    /// The small displacement ζ of the section, body frame.
+    pub displacement: Twist,
+    /// The change of its strain.
+    pub strain: Strain,
+}
+
+impl Mode {
+    /// The angular frequency ω, rad/s; NaN for an unstable one.
+    pub fn angular_frequency(&self) -> f64 {
+        self.omega_squared.sqrt()
+    }
+
+    /// The frequency ω/2π, Hz.
+    pub fn frequency(&self) -> f64 {
+        self.angular_frequency() / std::f64::consts::TAU
+    }
+}
+
+impl Dynamics {
+    /// The slowest modes about the static equilibrium nearest to a start, undamped, slowest first, each with ∫ζᵀ M ζ ds = 1.
+    ///
+    /// ```math
+    /// K\,\delta\xi = \omega^2 M\,\delta\xi
+    /// ```
+    ///
+    /// in the strains of the mesh, whose K and M are the tangents of a step. Under a load that has no potential K is not symmetric; its
+    /// symmetric part is taken. The work grows with the cube of the number of strains: some ten elements are plenty.
+    ///
+    /// ```
+    /// use hyperrod::material::LinearElastic;
+    /// use hyperrod::section::{Circle, Section};
+    /// use hyperrod::solve::dynamics::{Dynamics, Scene, Start};
+    /// use hyperrod::{Body, Pose, Rod};
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let section = Section::new(Circle::new(1e-3), LinearElastic::new(200e9, 80e9)?)?;
+    /// let rod = Rod::clamped(Body::new(0.5, section)?.with_density(7800.0)?, Pose::identity());
+    /// let modes = Dynamics::default().modes(&Scene::new(&rod), &Start::at_rest(), 2)?;
+    /// // a slender cantilever: ω = 3.516 √(E I / (ρ A L⁴)), in both planes
+    /// let slender = 3.51602 / 0.25 * (200e9 * 1e-6 / 4.0 / 7800.0_f64).sqrt();
+    /// assert!((modes[0].angular_frequency() / slender - 1.0).abs() < 1e-4);
+    /// assert!((modes[1].angular_frequency() / slender - 1.0).abs() < 1e-4);
+    /// # Ok(()) }
+    /// ```
+    ///
+    /// # Errors
+    /// Where no equilibrium is found, or no combination of K and M is positive definite.
+    pub fn modes<B: Movable>(
+        &self,
+        scene: &Scene<'_, B>,
+        start: &Start,
+        count: usize,
+    ) -> Result<Vec<Mode>, Box<Failure>> {
+        let found = match self.order {
+            Order::Two => modes_of(on_mesh::<B, 1>(self, scene, start.time)?, self, scene, start, count),
+            Order::Four => modes_of(on_mesh::<B, 2>(self, scene, start.time)?, self, scene, start, count),
+            Order::Six => modes_of(on_mesh::<B, 3>(self, scene, start.time)?, self, scene, start, count),
+        };
+        found.map_err(|reason| Failure::early(start.time, reason))
+    }
+}
+
+fn modes_of<B: Movable, const S: usize>(
+    mut core: Core<S>,
+    options: &Dynamics,
+    scene: &Scene<'_, B>,
+    start: &Start,
+    count: usize,
+) -> Result<Vec<Mode>, Reason> {
+    core.at_time(scene, start.time).map_err(Reason::Inadmissible)?;
+    set_strains(&mut core, scene, start)?;
+    balance(&mut core, scene, options.tolerance, options.max_iterations.max(50))?;
+    let free = scene.is_free();
+    let zero = Matrix6::zeros();
+    let mut matrices = [Relation::Static, Relation::Held].map(|relation| (relation, DMatrix::zeros(0, 0)));
+    for (relation, matrix) in &mut matrices {
+        core.problem.relation = *relation;
+        core.problem.stiffness = if *relation == Relation::Held { 0.0 } else { 1.0 };
+        core.move_to_strains(false);
+        core.respond(scene, Request::Tangent).map_err(Reason::Inadmissible)?;
+        core.balance();
+        let elements: Vec<_> = (0..core.grid.elements).map(|i| core.element(i, &zero)).collect();
+        *matrix = assemble(&elements, &core.tip_relation(), free);
+    }
+    let [(_, stiffness), (_, mass)] = matrices;
+    let unit = mass.diagonal().sum() / stiffness.diagonal().sum();
+    let pairs = eigenpairs(&stiffness, &mass, unit, free, count).map_err(Reason::Singular)?;
+    Ok(pairs.into_iter().map(|(omega_squared, q)| shape(&core, omega_squared, &q, free)).collect())
+}
+
+/// The matrix whose columns are what the linearised rod answers to unit strains, and to unit displacements of a free base; symmetric.
+fn assemble<const S: usize>(elements: &[AdjointElement<S>], tip: &Matrix6<f64>, free: bool) -> DMatrix<f64> {
+    let strains = 6 * S * elements.len();
+    let n = strains + if free { 6 } else { 0 };
+    let mut matrix = DMatrix::zeros(n, n);
+    let mut q = vec![0.0; n];
+    for column in 0..n {
+        q[column] = 1.0;
+        let answer = apply(elements, tip, &q);
+        matrix.column_mut(column).copy_from_slice(&answer[..n]);
+        q[column] = 0.0;
+    }
+    let transpose = matrix.transpose();
+    (matrix + transpose) * 0.5
+}
+
+fn six(q: &[f64], at: usize) -> Vector6<f64> {
+    Vector6::from_column_slice(&q[at..at + 6])
+}
+
+/// The displacement of every node.
+fn displacements<const S: usize>(elements: &[AdjointElement<S>], q: &[f64]) -> Vec<Vector6<f64>> {
+    let strains = 6 * S * elements.len();
+    let mut zeta = vec![if q.len() > strains { six(q, strains) } else { Vector6::zeros() }];
+    for (i, element) in elements.iter().enumerate() {
+        let mut next = element.end_inverse.apply(&Twist::from_vector(&zeta[i]));
+        for k in 0..S {
+            next += element.end[k].apply(&Twist::from_vector(&six(q, 6 * (S * i + k))));
+        }
+        zeta.push(next.to_vector());
+    }
+    zeta
+}
+
+/// The residuals of the stages, and minus the wrench at the base.
+fn apply<const S: usize>(elements: &[AdjointElement<S>], tip: &Matrix6<f64>, q: &[f64]) -> Vec<f64> {
+    use crate::lie::Wrench;
+    let zeta = displacements(elements, q);
+    let mut answer = vec![0.0; 6 * S * elements.len() + 6];
+    let mut wrench = tip * zeta[elements.len()];
+    for (i, element) in elements.iter().enumerate().rev() {
+        let beyond = Wrench::from_vector(&wrench);
+        let mut before = element.end_inverse.apply_transpose(&beyond).to_vector() + element.u * zeta[i];
+        for k in 0..S {
+            let mut row = -element.end[k].apply_transpose(&beyond).to_vector() - element.p[k] * zeta[i];
+            for m in 0..S {
+                row += element.a[k][m] * six(q, 6 * (S * i + m));
+            }
+            answer[6 * (S * i + k)..6 * (S * i + k) + 6].copy_from_slice(row.as_slice());
+            before -= element.q[k] * six(q, 6 * (S * i + k));
+        }
+        wrench = before;
+    }
+    let base = 6 * S * elements.len();
+    answer[base..].copy_from_slice((-wrench).as_slice());
+    answer
+}
+
+/// The smallest ω² with K q = ω² M q and qᵀ M q = 1, from the largest 1/(ω² + σ) of (K + σM)⁻¹ M: the wanted ones come with all their digits.
+fn eigenpairs(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    unit: f64,
+    free: bool,
+    count: usize,
+) -> Result<Vec<(f64, Vec<f64>)>> {
+    let shifts = std::iter::once(0.0).chain((-12..=6).map(|power| 10.0_f64.powi(power) / unit));
+    for shift in shifts.skip(usize::from(free)) {
+        let shifted = stiffness + mass * shift;
+        let scale = shifted.diagonal().map(|d| 1.0 / d.abs().max(f64::MIN_POSITIVE).sqrt());
+        let scaled =
+            |m: &DMatrix<f64>| DMatrix::from_fn(m.nrows(), m.ncols(), |r, c| m[(r, c)] * scale[r] * scale[c]);
+        let Some(factor) = Cholesky::new(scaled(&shifted)) else { continue };
+        // a pivot that is only rounding is no pivot
+        if free && factor.l().diagonal().min() < 1e-6 {
+            continue;
+        }
+        let l = factor.l();
+        let solved = l
+            .solve_lower_triangular(&scaled(mass))
+            .and_then(|half| l.solve_lower_triangular(&half.transpose()));
+        let Some(matrix) = solved else { continue };
+        let eigen = SymmetricEigen::new((&matrix + matrix.transpose()) * 0.5);
+        let mut order: Vec<usize> = (0..matrix.nrows()).collect();
+        order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+        let pairs = order.into_iter().take(count).filter(|&i| eigen.eigenvalues[i] > 0.0).filter_map(|i| {
+            let mu = eigen.eigenvalues[i];
+            // q = S L⁻ᵀ y has qᵀ M q = μ
+            let y = l.tr_solve_lower_triangular(&eigen.eigenvectors.column(i).into_owned())?;
+            let q = y.component_mul(&scale) / mu.sqrt();
+            Some((1.0 / mu - shift, q.as_slice().to_vec()))
+        });
+        return Ok(pairs.collect());
+    }
+    Err(Error::Singular { matrix: "stiffness with any share of the mass", s: 0.0 })
+}
+
+/// A mode from its strains, by the kinematics of `core`.
+fn shape<const S: usize>(core: &Core<S>, omega_squared: f64, q: &[f64], free: bool) -> Mode {
+    let strains = 6 * S * core.grid.elements;
+    let mut node = if free { Twist::from_vector(&six(q, strains)) } else { Twist::zero() };
+    let mut mode = Mode { omega_squared, nodes: vec![node], stages: Vec::new() };
+    for i in 0..core.grid.elements {
+        let rate: [Twist; S] = std::array::from_fn(|k| Twist::from_vector(&six(q, 6 * (S * i + k))));
+        let (stage, end) = core.legs[i].velocities(&core.grid.table, core.grid.h(), &node, &rate);
+        for k in 0..S {
+            mode.stages.push(ModeStage {
+                s: core.grid.stage_s(i, k),
+                weight: core.grid.weight(k),
+                displacement: stage[k],
+                strain: Strain::new(rate[k].angular, rate[k].linear),
+            });
+        }
+        node = end;
+        mode.nodes.push(node);
+    }
+    mode
+}

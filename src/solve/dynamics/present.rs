@@ -1,0 +1,144 @@
+//! The state of a rod in motion at one instant, as the solver has it.
+
+use super::state::State;
+use crate::error::{Error, Result};
+use crate::lie::{Pose, Strain, Twist};
+use nalgebra::{Matrix3, Vector3};
+
+/// Everything a step starts from.
+#[derive(Clone)]
+pub(super) struct Present<const S: usize> {
+    pub(super) time: f64,
+    pub(super) base: BaseMotion,
+    pub(super) points: Vec<[Moving; S]>,
+    /// Work done by damping and by loads since the start, J.
+    pub(super) dissipated: f64,
+    pub(super) work: f64,
+    /// Their rates, W.
+    pub(super) power: [f64; 2],
+}
+
+/// What moves at one Gauss stage.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moving {
+    pub(super) pose: Pose,
+    pub(super) strain: Strain,
+    pub(super) strain_rate: Strain,
+    /// The algorithmic second derivative of the strain, as generalised-α has it.
+    pub(super) strain_second: Strain,
+    pub(super) velocity: Twist,
+    pub(super) acceleration: Twist,
+    /// The algorithmic acceleration of generalised-α.
+    pub(super) algorithmic: Twist,
+}
+
+/// The same of the first section.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BaseMotion {
+    pub(super) pose: Pose,
+    pub(super) velocity: Twist,
+    pub(super) acceleration: Twist,
+    pub(super) algorithmic: Twist,
+}
+
+impl Moving {
+    pub(super) fn still() -> Self {
+        let (twist, strain) = (Twist::zero(), Strain::zero());
+        Self {
+            pose: Pose::identity(),
+            strain,
+            strain_rate: strain,
+            strain_second: strain,
+            velocity: twist,
+            acceleration: twist,
+            algorithmic: twist,
+        }
+    }
+}
+
+impl BaseMotion {
+    pub(super) fn still(pose: Pose) -> Self {
+        let zero = Twist::zero();
+        Self { pose, velocity: zero, acceleration: zero, algorithmic: zero }
+    }
+}
+
+impl<const S: usize> Present<S> {
+    /// All points, base to tip.
+    pub(super) fn points(&self) -> impl Iterator<Item = &Moving> {
+        self.points.iter().flatten()
+    }
+
+    /// The numbers a run can go on from; poses follow from the strains.
+    pub(super) fn save(&self) -> State {
+        let mut pose = [0.0; 12];
+        pose[..9].copy_from_slice(self.base.pose.rotation.as_slice());
+        pose[9..].copy_from_slice(self.base.pose.position.as_slice());
+        let base = &self.base;
+        State {
+            time: self.time,
+            stages: S,
+            base_pose: pose,
+            base: [base.velocity, base.acceleration, base.algorithmic].map(Twist::to_array),
+            strain: self.points().map(|p| p.strain.to_array()).collect(),
+            strain_rate: self.points().map(|p| p.strain_rate.to_array()).collect(),
+            strain_second: self.points().map(|p| p.strain_second.to_array()).collect(),
+            velocity: self.points().map(|p| p.velocity.to_array()).collect(),
+            acceleration: self.points().map(|p| p.acceleration.to_array()).collect(),
+            algorithmic: self.points().map(|p| p.algorithmic.to_array()).collect(),
+            dissipated: self.dissipated,
+            work: self.work,
+            power: self.power,
+            kept: None,
+            memory: None,
+        }
+    }
+
+    /// From saved numbers. Poses of the stages are left to be found.
+    pub(super) fn restore(state: &State, elements: usize) -> Result<Self> {
+        let n = S * elements;
+        let parts = [
+            &state.strain,
+            &state.strain_rate,
+            &state.strain_second,
+            &state.velocity,
+            &state.acceleration,
+            &state.algorithmic,
+        ];
+        if state.stages != S || parts.iter().any(|part| part.len() != n) {
+            let quantity = "number of Gauss stages in the saved state";
+            let requirement = "that of the mesh and order of the solver";
+            return Err(Error::Invalid { quantity, value: state.strain.len() as f64, requirement });
+        }
+        let numbers = parts.iter().flat_map(|part| part.iter().flatten()).chain(&state.base_pose);
+        if let Some(&value) = numbers.chain(state.base.iter().flatten()).find(|v| !v.is_finite()) {
+            return Err(Error::Invalid {
+                quantity: "number of the saved state",
+                value,
+                requirement: "finite",
+            });
+        }
+        let point = |j: usize| Moving {
+            pose: Pose::identity(),
+            strain: Strain::from_array(state.strain[j]),
+            strain_rate: Strain::from_array(state.strain_rate[j]),
+            strain_second: Strain::from_array(state.strain_second[j]),
+            velocity: Twist::from_array(state.velocity[j]),
+            acceleration: Twist::from_array(state.acceleration[j]),
+            algorithmic: Twist::from_array(state.algorithmic[j]),
+        };
+        let [velocity, acceleration, algorithmic] = state.base.map(Twist::from_array);
+        let pose = Pose::new(
+            Matrix3::from_column_slice(&state.base_pose[..9]),
+            Vector3::from_column_slice(&state.base_pose[9..]),
+        );
+        Ok(Self {
+            time: state.time,
+            base: BaseMotion { pose, velocity, acceleration, algorithmic },
+            points: (0..elements).map(|i| std::array::from_fn(|k| point(S * i + k))).collect(),
+            dissipated: state.dissipated,
+            work: state.work,
+            power: state.power,
+        })
+    }
+}

@@ -1,0 +1,12 @@
+//! Loads and actuators: their derivatives, closed forms, and solutions by another formulation and another method.
+#![allow(clippy::unwrap_used)] // a test that cannot go on should panic
+
+#[path = "../reference/mod.rs"]
+mod reference;
+mod shooting;
+
+mod derivatives;
+mod messages;
+mod solved;
+mod strong_form;
+mod tendons;
