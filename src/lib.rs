@@ -166,6 +166,7 @@
 //! | shape along s | a number; [`Linear`](section::Linear); a closure of s over a dual number; and any shape [`scaled`](section::Shape::scaled), [`rotated`](section::Shape::rotated) or [`shifted`](section::Shape::shifted) |
 //! | reference | straight; a constant ξ*; a function of s ([`ReferenceShape`](body::ReferenceShape)) |
 //! | quadrature | exact for a law with a stated degree; for another, of degree [`Section::DEFAULT_DEGREE`](section::Section::DEFAULT_DEGREE) or what [`with_degree`](section::Section::with_degree) or [`with_tolerance`](section::Section::with_tolerance) asks for |
+//! | actuators | none; [`Tendon`](section::Tendon)s by tension or [by length](Statics::solve_tendon_length); [`PressureChamber`](section::PressureChamber)s; your own [`Actuator`](section::Actuator) |
 //! | element | [`Order`](solve::Order) 2, 4 or 6: one, two or three Gauss stages; [`Statics::to`] chooses the mesh for an error |
 //! | time | statics; [`Dynamics`](solve::dynamics::Dynamics) with [`Scheme`](solve::dynamics::Scheme) ESDIRK4(3) or generalised-α, fixed or adaptive steps |
 //! | mass | none; [`with_density`](Body::with_density); [`with_mass_per_length`](Body::with_mass_per_length) |

@@ -36,13 +36,13 @@ pub fn draw(quick: bool, picture: &Path) -> Outcome {
         |side: f64| path.points.iter().map(move |p| [side * p.solution.tip().pose.position.x, p.load_factor]);
     let exact = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95].map(elastica);
     Chart::new(
-        "Column, clamped below: the paths of its equilibria",
+        "Column, clamped below: its equilibria; straight, it is unstable above 1",
         "sideways displacement of the tip, L",
         "load, Euler's load",
     )
-    .line("straight (unstable above 1)", [[0.0, 0.0], [0.0, 3.0]])
-    .line("buckled to the right", branch(side))
-    .line("to the left", branch(-side))
+    .line("straight", [[0.0, 0.0], [0.0, 3.0]])
+    .line("buckled", branch(side))
+    .line("to the other side", branch(-side))
     .marks("elastica, exact", exact)
     .save(&picture.with_file_name("buckled_strut_path.svg"))?;
 

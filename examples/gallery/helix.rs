@@ -43,7 +43,7 @@ pub fn draw(quick: bool, picture: &Path) -> Outcome {
     let title = "Spring of 1.5 mm steel wire, coiled at rest, under weights on its axis";
     let mut drawing = Drawing::new(title, "X, mm (springs side by side)", "height in the picture, mm");
     for (k, (mass, color)) in [(0.0, BLUE), (0.6, ORANGE), (1.2, GREEN)].into_iter().enumerate() {
-        let solution = solve(mass, if quick { 24 } else { 96 })?;
+        let solution = solve(mass, if quick { 40 } else { 56 })?;
         let aside = vector![0.08 * k as f64, 0.0, 0.0];
         let path: Vec<_> = axis(&solution).iter().map(|p| p + aside).collect();
         let end = solution.tip().pose.transform_point(&(Vector3::x() * COIL)) + aside;

@@ -18,6 +18,7 @@ mod snapping_arch;
 mod soft_arm;
 mod square_bar;
 mod tendon_gripper;
+mod whip;
 
 use figure::{Outcome, Output};
 use std::path::Path;
@@ -26,7 +27,7 @@ use std::time::Instant;
 /// What a scene is called, and what draws it; `quick` asks for a coarse mesh.
 type Scene = (&'static str, fn(quick: bool, picture: &Path) -> Outcome);
 
-const SCENES: [Scene; 9] = [
+const SCENES: [Scene; 10] = [
     ("soft_arm", soft_arm::draw),
     ("helix", helix::draw),
     ("tendon_gripper", tendon_gripper::draw),
@@ -34,6 +35,7 @@ const SCENES: [Scene; 9] = [
     ("snapping_arch", snapping_arch::draw),
     ("square_bar", square_bar::draw),
     ("poynting", poynting::draw),
+    ("whip", whip::draw),
     ("ribbon", ribbon::draw),
     ("graded_stiffness", graded_stiffness::draw),
 ];

@@ -55,9 +55,8 @@ pub fn draw(quick: bool, picture: &Path) -> Outcome {
     }
     chart.save(&picture.with_file_name("snapping_arch_path.svg"))?;
 
-    let Some(first) = path.events.iter().find(|e| e.kind == PathEventKind::LimitPoint) else {
-        return Err("the arch does not snap".into());
-    };
+    let first = path.events.iter().find(|e| e.kind == PathEventKind::LimitPoint);
+    let first = first.ok_or("the arch does not snap")?;
     // beyond it, the equilibrium under the same load that is left
     let snapped = path
         .points

@@ -20,7 +20,7 @@ pub fn draw(quick: bool, picture: &Path) -> Outcome {
     strain.angular.z = TWIST;
     let section = bar.deformed(&at, &strain)?;
 
-    let count = if quick { 10 } else { 32 };
+    let count = if quick { 10 } else { 24 };
     let corner = |i: usize| SIDE * (i as f64 / count as f64 - 0.5);
     let mut cells = Vec::new();
     let mut largest: f64 = 0.0;

@@ -8,6 +8,7 @@ use crate::material::Reference;
 type Varying = Arc<dyn Fn(Dual64) -> Twist<Dual64> + Send + Sync>;
 
 /// The shape of a body at rest, given by its strain twist ξ*(s).
+#[non_exhaustive]
 #[derive(Clone, Default)]
 pub enum ReferenceShape {
     /// Straight and unstretched along e₃.
@@ -50,6 +51,9 @@ impl ReferenceShape {
             "nu_y of the reference strain",
             "nu_z of the reference strain",
         ];
+        if let Self::Straight = self {
+            return Ok(Reference::straight());
+        }
         let reference = self.at(s);
         let invalid =
             |quantity, value, requirement| Err(Error::InvalidAt { quantity, value, requirement, s });

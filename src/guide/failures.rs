@@ -9,9 +9,10 @@
 //! | `Options` | the options make no sense | mend them |
 //! | `Supports` | the rod can move freely | hold the freedom it names |
 //! | `Start` | the rod cannot be evaluated at rest | a size or law that is not admissible, at the s it names |
-//! | `NoAdmissibleStep` | every step turns the material inside out (J ≤ 0) or leaves the law's domain | load in steps; look at the place; another law in compression |
+//! | `NoAdmissibleStep` | every step turns the material inside out (J ≤ 0) or leaves the law's domain | look at the place, and at half the load; another law in compression |
 //! | `Singular` | the tangent has no inverse | a limit point of the load: nothing stands beyond it; or a section without stiffness |
-//! | `IterationLimit` | it did not settle | load in steps; raise the limit if `step` was still falling |
+//! | `Unstable` | there is an equilibrium, and it would not stay | see [below](#equilibria-that-would-not-stay) |
+//! | `IterationLimit` | it did not settle | raise the limit if `step` was still falling; look at half the load |
 //! | `Accuracy` | the mesh limit or rounding came first | ask for less |
 //!
 //! # A refusal that names its place
@@ -30,33 +31,37 @@
 //! # Ok(()) }
 //! ```
 //!
-//! # The load in steps
+//! # Equilibria that would not stay
 //!
-//! Newton's method starts from the rest shape. Where the answer is far away, scale the load and watch from which factor on it fails: a
-//! scene is a function of a number.
+//! A column beyond its critical load has a straight equilibrium, and buckled ones. The solver looks at the stability of what it finds, goes on
+//! to a stable one, and says in its [report](crate::solve::Report) what it had to do (`rungs`) and what the answer is (`stability`). It
+//! fails with `Unstable` where it finds none: ask for any equilibrium with `accept_unstable`, or look at the whole path.
 //!
 //! ```
 //! use hyperrod::load::DeadWrench;
+//! use hyperrod::solve::{PathOptions, Stability};
 //! use hyperrod::section::Stiffness;
-//! use hyperrod::{Body, Pose, Rod, StaticSolution, Statics, solve::Failure};
+//! use hyperrod::{Body, Pose, Rod, Statics};
 //! use nalgebra::vector;
 //!
-//! fn scene(factor: f64) -> hyperrod::Result<Rod<Body<Stiffness>>> {
-//!     let body = Body::new(1.0, Stiffness::diagonal([1.0, 1.0, 0.8, 1e4, 1e4, 3e4])?)?;
-//!     let push = DeadWrench::force(vector![30.0, 0.0, 0.0] * factor)?;
-//!     Ok(Rod::clamped(body, Pose::identity()).with_tip_load(push))
-//! }
-//!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! for factor in [0.25, 0.5, 1.0] {
-//!     let solved: Result<StaticSolution, Box<Failure>> = Statics::default().solve(&scene(factor)?);
-//!     match solved {
-//!         Ok(solution) => assert!(solution.tip().pose.position.x > 0.5),
-//!         Err(failure) => println!("at {factor}: {failure}; {} iterations", failure.report.iterations.len()),
-//!     }
-//! }
+//! let body = Body::new(1.0, Stiffness::diagonal([4.0, 1.0, 0.8, 1e4, 1e4, 3e4])?)?;
+//! let push = DeadWrench::force(vector![0.0, 0.0, -3.0])?; // beyond π² EI / 4 L²
+//! let column = Rod::clamped(body, Pose::identity()).with_tip_load(push);
+//!
+//! let buckled = Statics::default().solve(&column)?;
+//! assert!(buckled.tip().pose.position.x.abs() > 0.2);
+//! let straight = Statics { accept_unstable: true, ..Statics::default() }.solve(&column)?;
+//! assert_eq!(straight.report().stability, Stability::Index { unstable: 1, neutral: 0 });
+//! // at which part of the load does it buckle?
+//! let up_to = PathOptions { factors: [0.0, 1.0], ..PathOptions::default() };
+//! let buckling = Statics::default().buckling(&column, &up_to)?.ok_or("it does not buckle")?;
+//! assert!((buckling.critical.load_factor * 3.0 - 2.4674).abs() < 1e-2);
 //! # Ok(()) }
 //! ```
+//!
+//! [`Statics::trace`](crate::Statics::trace) follows the equilibria from rest through limit points, where a rod snaps;
+//! [`trace_buckled`](crate::Statics::trace_buckled) the path that leaves the first bifurcation.
 //!
 //! # Where to look
 //!

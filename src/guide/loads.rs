@@ -86,7 +86,7 @@
 //! # Ok(()) }
 //! ```
 //!
-//! Why a type and not a number with a default: [decision 3](https://docs.rs/crate/hyperrod/latest/source/docs/decisions/003-mass-is-a-type.md).
+//! Why a type and not a number with a default: `docs/decisions/003-mass-is-a-type.md` in the repository.
 //!
 //! # By hand
 //!

@@ -8,6 +8,7 @@
 //! | write a load of your own, also one that asks something new of the body | [`loads`] |
 //! | hold a rod, and move it with tendons and pressure | [`supports`] |
 //! | read what a solve reports, and take the results elsewhere | [`reports`] |
+//! | move a rod in time | [`motion`] |
 //! | get on when a solve fails | [`failures`] |
 //! | see where every equation is in the code | [`theory`] |
 //!
@@ -17,6 +18,7 @@ pub mod failures;
 pub mod first_rod;
 pub mod laws;
 pub mod loads;
+pub mod motion;
 pub mod reports;
 pub mod sections;
 pub mod supports;

@@ -22,6 +22,7 @@
 //! assert!((reaction - vector![-3.0, 0.0, 0.0]).norm() < 1e-9);
 //!
 //! let report = solution.report();
+//! assert_eq!(report.stability.to_string(), "stable"); // it would stay
 //! assert!(report.error.position < 1e-5); // m: how far the mesh is from the model's answer
 //! assert!(report.residual < 1e-9); // how far the answer is from equilibrium on its mesh
 //! for step in report.fine_iterations() {
@@ -37,7 +38,9 @@
 //! | `error`: estimated from two meshes | below what you need | more elements, or [`Statics::to`](crate::Statics::to) an accuracy |
 //! | `residual` | 10⁻⁹ and less | rounding, or a law whose derivatives are not smooth |
 //! | `iterations`, their `step` | the last ones square | a load with a wrong derivative; a kink in the law |
-//! | their `fraction` | 1 in the end | below 1 all along: the start is far from the answer; [apply the load in steps](super::failures) |
+//! | `stability` | stable | [equilibria that would not stay](super::failures#equilibria-that-would-not-stay) |
+//! | `rungs` | Newton alone | it had to do more to get there; that is no fault |
+//! | their `fraction` | 1 in the end | below 1 all along: the start is far from the answer |
 //!
 //! The error is that of the *mesh*. That of the *model* (a rigid section where the real one contracts) is not in it, nor that of a quadrature
 //! of a law that is no polynomial: [`Section::with_tolerance`](crate::section::Section::with_tolerance) bounds that one.

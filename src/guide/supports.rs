@@ -65,4 +65,6 @@
 //!
 //! The strain energy that a solution reports contains the energy of its actuators: tension times length, less pressure times volume.
 //!
+//! In motion a tension or a pressure is a function of time; see [`motion`](super::motion).
+//!
 //! Next: [read a report](super::reports).

@@ -34,7 +34,8 @@
 //! use hyperrod::material::{Deformation, Point};
 //! let strain = Strain::from_array([3.0, -2.0, 1.0, 0.1, 0.2, 0.05]);
 //! let f = Deformation::of(&strain, &Point { x: 0.01, y: 0.02, s: 0.0 });
-//! let (a, b, e) = (0.1 - 1.0 * 0.02, 0.2 + 1.0 * 0.01, 0.05 + 3.0 * 0.02 + 2.0 * 0.01);
+//! let (a, b) = (0.1 - 1.0 * 0.02, 0.2 + 1.0 * 0.01);
+//! let e = 0.05 + 3.0 * 0.02 + 2.0 * 0.01;
 //! let i = f.invariants();
 //! assert!((i.i1() - (a * a + b * b + e * (2.0 + e))).abs() < 1e-15);
 //! assert!((i.i2() - (a * a + b * b + 2.0 * e * (2.0 + e))).abs() < 1e-15);
@@ -61,11 +62,13 @@
 //! # fn main() -> hyperrod::Result<()> {
 //! let taper = Linear { from: 0.010, to: 0.006, length: 0.2 };
 //! let section = Section::new(Circle::new(taper), NeoHookean::new(200e3, 300e3)?)?;
-//! let (at, xi) = (Station::straight(0.05), Strain::from_array([2.0, 1.0, 3.0, 0.05, 0.0, 0.1]));
+//! let at = Station::straight(0.05);
+//! let xi = Strain::from_array([2.0, 1.0, 3.0, 0.05, 0.0, 0.1]);
 //! let r = section.respond(&at, &xi, Request::Rate)?;
 //! let direction = Strain::from_array([1.0, 0.0, 0.5, 0.0, 0.01, 0.02]);
 //! let h = 1e-4;
-//! let slope = (section.energy(&at, &(xi + direction * h))? - section.energy(&at, &(xi - direction * h))?) / (2.0 * h);
+//! let energy = |h: f64| section.energy(&at, &(xi + direction * h));
+//! let slope = (energy(h)? - energy(-h)?) / (2.0 * h);
 //! assert!((slope - direction.pair(&r.wrench)).abs() < 1e-7 * slope.abs());
 //! // Ψ′: what the taper adds
 //! let ahead = section.wrench(&Station::straight(0.05 + 1e-6), &xi)?;
@@ -92,7 +95,8 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let body = Body::new(1.0, Stiffness::diagonal([1.0, 1.0, 0.8, 1e4, 1e4, 3e4])?)?;
 //! let force = vector![2.0, 1.0, -1.0];
-//! let solution = Statics::default().solve(&Rod::clamped(body, Pose::identity()).with_tip_load(DeadWrench::force(force)?))?;
+//! let rod = Rod::clamped(body, Pose::identity()).with_tip_load(DeadWrench::force(force)?);
+//! let solution = Statics::default().solve(&rod)?;
 //! for node in solution.nodes() {
 //!     assert!((node.pose.rotation * node.wrench.force - force).norm() < 1e-9);
 //! }
@@ -105,11 +109,11 @@
 //!
 //! ```math
 //! \xi' = \left(\frac{\partial\Psi}{\partial\Delta\xi} - \bar A\right)^{-1}
-//!   \left(M\dot\eta - \mathrm{ad}_\eta^{\mathsf T} M\eta + \mathrm{ad}_\xi^{\mathsf T}\Psi - \Psi' + \frac{\partial\Psi}{\partial\Delta\xi}\,\xi^{*\prime} + \bar B\right)
+//!   \left(M\dot\eta - \mathrm{ad}_\eta^{\mathsf T} M\eta + \mathrm{ad}_\xi^{\mathsf T}\Psi - \Psi' + \frac{\partial\Psi}{\partial\Delta\xi}\,(\xi^*)' + \bar B\right)
 //! ```
 //!
-//! The crate does not integrate this: it solves the balance by collocation in the strains ([decision
-//! 1](https://docs.rs/crate/hyperrod/latest/source/docs/decisions/001-strains-first-collocation.md)), and takes the defect of the strong form
+//! The crate does not integrate this: it solves the balance by collocation in the strains
+//! (`docs/decisions/001-strains-first-collocation.md` in the repository), and takes the defect of the strong form
 //! between the collocation points as the measure of error that refines the mesh. Ā and B̄ of tendons and pressure are not coded either:
 //! they are −∂²U/∂ξ² and what goes with it, of their [energy](crate::section::Actuator).
 //!
@@ -156,7 +160,8 @@
 //! close(k[(0, 0)], young * width * height.powi(3) / 12.0); // E ∫y² dA about x
 //! close(k[(1, 1)], young * height * width.powi(3) / 12.0); // E ∫x² dA about y
 //!
-//! let rubber = Relaxed::incompressible(Rectangle::new(width, height), ReferencePressure(law))?;
+//! let shape = Rectangle::new(width, height);
+//! let rubber = Relaxed::incompressible(shape, ReferencePressure(law))?;
 //! let rubber = rubber.with_warping(Warping::CONTRACTION)?;
 //! let flexible = rubber.tangent(&at, &rest)?;
 //! assert!((flexible[(5, 5)] / (6.0 * (c1 + c2) * area) - 1.0).abs() < 1e-9);

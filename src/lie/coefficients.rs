@@ -6,7 +6,7 @@
 use crate::scalar::Scalar;
 
 /// Up to here (θ ≈ 3.16, just past π) [`stumpff`] sums a series.
-const SERIES_LIMIT: f64 = 10.0;
+pub(crate) const SERIES_LIMIT: f64 = 10.0;
 
 /// Terms of the series. At x = 10 the first one left out changes the second derivatives of c₅ and c₆ (the slowest to
 /// converge) by 4e-18 and 2e-18 of their value at 0; the values by far less.
@@ -28,8 +28,10 @@ const fn stumpff_series(k: usize) -> [f64; SERIES_TERMS] {
     terms
 }
 
-const C5: [f64; SERIES_TERMS] = stumpff_series(5);
-const C6: [f64; SERIES_TERMS] = stumpff_series(6);
+/// Of c₅.
+pub(crate) const C5: [f64; SERIES_TERMS] = stumpff_series(5);
+/// Of c₆.
+pub(crate) const C6: [f64; SERIES_TERMS] = stumpff_series(6);
 
 /// The polynomial Σ aⱼ xʲ.
 #[inline]

@@ -16,6 +16,7 @@ mod serialize;
 pub mod so3;
 mod vectors;
 
+pub(crate) use coefficients::{C5, C6, SERIES_LIMIT};
 pub use coefficients::{dexp_coefficients, dexp_inv_coefficients, stumpff};
 pub use map::TwistMap;
 pub use pose::Pose;

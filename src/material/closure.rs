@@ -1,12 +1,16 @@
+use super::blocks::{Blank, Blocks, Respond, fill_registers};
 use super::differentiate::{Fibre, FibreResponse, Rate, unpack};
-use super::integrate::{EnergyJet, Respond, Site, respond, sum_local, sum_sectional};
+use super::integrate::Site;
 use super::kinematics::{Deformation, Invariants, Point};
 use super::law::Material;
 use super::response::{Points, Request, Response, Station};
+use super::sectional::{EnergyJet, Place, Spans, add_span};
+use super::span::Span;
+use super::sums::Totals;
+use super::task::Task;
 use crate::error::Result;
 use crate::lie::Strain;
-use crate::scalar::lane::{Kernel, dispatch};
-use crate::scalar::{Jet, Lane, Portable};
+use crate::scalar::{Jet, Portable, lanes_disagreed};
 
 /// The dual number a [`local`] or [`isotropic`] closure is written over: variables (a, b, e, s), second order.
 pub type LocalJet = Jet<Portable, 4, 10>;
@@ -30,7 +34,7 @@ pub struct SectionalClosure<F>(F);
 
 /// A law from a real closure u(I₁−3, I₂−3, J−1; x, y, s): captures anything, types inferred, and can be boxed.
 ///
-/// It always pays for all four variables (a, b, e, s), and the compiler is not bound to inline it into the engine's loop: it is many
+/// It always pays for all four variables (a, b, e, s), and is compiled for every machine and not for the widest registers of this one: some three
 /// times slower than [`isotropic!`](crate::isotropic!), which pays for what is asked (`cargo run --release --example engine_speed`). `ln`,
 /// `powf` and their like need `use hyperrod::num_dual::DualNum;`, since the number is a concrete one.
 ///
@@ -73,12 +77,25 @@ where
     SectionalClosure(energy_density)
 }
 
-/// Runs a closure on blocks of points inside the best instruction set of the machine.
-struct ClosureKernel<'a, F>(&'a ClosureLaw<F>, Site<'a>, &'a mut Response);
+/// A closure of the deformation, as the engine sees it. Compiled for every machine, as the closure itself is: within the instructions of
+/// one machine it would not be inlined.
+struct Called<F>(F);
 
-struct ClosureLaw<F>(F);
+impl<F> Blocks for Called<F>
+where
+    F: Fn(&Deformation<LocalJet>, &Point<LocalJet>) -> LocalJet,
+{
+    fn fill(&self, _: Request, blank: &mut Blank<'_>) -> bool {
+        fill_registers::<Portable, Rate, _>(self, blank);
+        lanes_disagreed()
+    }
 
-impl<F> Respond<Portable, Rate> for ClosureLaw<F>
+    fn region(&self) -> &'static str {
+        DOMAIN
+    }
+}
+
+impl<F> Respond<Portable, Rate> for Called<F>
 where
     F: Fn(&Deformation<LocalJet>, &Point<LocalJet>) -> LocalJet,
 {
@@ -88,7 +105,24 @@ where
     }
 }
 
-impl<F> EnergyJet<SectionalJet> for ClosureLaw<F>
+/// A closure of the strain, likewise.
+struct CalledWithStrain<F>(F);
+
+impl<F> Spans for CalledWithStrain<F>
+where
+    F: Fn(&Strain<SectionalJet>, &Point<SectionalJet>) -> SectionalJet,
+{
+    fn add(&self, request: Request, at: Place<'_>, span: &Span<'_>, totals: &mut Totals) -> bool {
+        add_span::<Portable, 7, 28, _>(at, span, request, self, totals);
+        lanes_disagreed()
+    }
+
+    fn region(&self) -> &'static str {
+        DOMAIN
+    }
+}
+
+impl<F> EnergyJet<SectionalJet> for CalledWithStrain<F>
 where
     F: Fn(&Strain<SectionalJet>, &Point<SectionalJet>) -> SectionalJet,
 {
@@ -96,27 +130,6 @@ where
     fn energy_jet(&self, strain: &Strain<SectionalJet>, at: &Point<SectionalJet>) -> SectionalJet {
         (self.0)(strain, at)
     }
-}
-
-impl<F> Kernel for ClosureKernel<'_, F>
-where
-    F: Fn(&Deformation<LocalJet>, &Point<LocalJet>) -> LocalJet,
-{
-    type Output = ();
-
-    #[inline(always)]
-    fn run<L: Lane>(self) {
-        sum_local::<Portable, Rate, _>(self.1, self.0, self.2);
-    }
-}
-
-/// Integrates a closure of the deformation and the point.
-fn integrate_closure(
-    energy_density: impl Fn(&Deformation<LocalJet>, &Point<LocalJet>) -> LocalJet,
-    site: Site<'_>,
-) -> Result<Response> {
-    let law = ClosureLaw(energy_density);
-    respond(DOMAIN, site, true, |site, out| dispatch(ClosureKernel(&law, site, out)))
 }
 
 impl<F> Material for IsotropicClosure<F>
@@ -128,9 +141,11 @@ where
         points: &Points,
         at: &Station,
         strain: &Strain,
-        _request: Request,
+        request: Request,
     ) -> Result<Response> {
-        integrate_closure(|f, point| (self.0)(&f.invariants(), point), Site { points, at, strain })
+        let law =
+            Called(|f: &Deformation<LocalJet>, point: &Point<LocalJet>| (self.0)(&f.invariants(), point));
+        Task::respond(Site { points, at, strain }, request, |task| task.perform(&law))
     }
 
     fn polynomial_degree(&self) -> Option<usize> {
@@ -147,28 +162,14 @@ where
         points: &Points,
         at: &Station,
         strain: &Strain,
-        _request: Request,
+        request: Request,
     ) -> Result<Response> {
-        integrate_closure(&self.0, Site { points, at, strain })
+        let law = Called(&self.0);
+        Task::respond(Site { points, at, strain }, request, |task| task.perform(&law))
     }
 
     fn polynomial_degree(&self) -> Option<usize> {
         None
-    }
-}
-
-/// As [`ClosureKernel`], for a section-level closure.
-struct SectionalKernel<'a, F>(&'a ClosureLaw<F>, Site<'a>, &'a mut Response);
-
-impl<F> Kernel for SectionalKernel<'_, F>
-where
-    F: Fn(&Strain<SectionalJet>, &Point<SectionalJet>) -> SectionalJet,
-{
-    type Output = ();
-
-    #[inline(always)]
-    fn run<L: Lane>(self) {
-        sum_sectional(self.1, Request::Rate, self.0, self.2);
     }
 }
 
@@ -181,11 +182,10 @@ where
         points: &Points,
         at: &Station,
         strain: &Strain,
-        _request: Request,
+        request: Request,
     ) -> Result<Response> {
-        let site = Site { points, at, strain };
-        let law = ClosureLaw(&self.0);
-        respond(DOMAIN, site, false, |site, out| dispatch(SectionalKernel(&law, site, out)))
+        let law = CalledWithStrain(&self.0);
+        Task::respond(Site { points, at, strain }, request, |task| task.perform_sectional(&law))
     }
 
     fn polynomial_degree(&self) -> Option<usize> {

@@ -55,20 +55,6 @@ pub struct Fibre<L> {
 }
 
 impl<L: Lane> Fibre<L> {
-    /// The point of lane `i` in every lane.
-    #[inline(always)]
-    pub(super) fn only(&self, i: usize) -> Self {
-        let ([x, y], [dx, dy]) = (self.position, self.position_rate);
-        let ([a, b, e], [da, db, de]) = (self.gamma, self.gamma_rate);
-        Self {
-            position: [x.spread(i), y.spread(i)],
-            position_rate: [dx.spread(i), dy.spread(i)],
-            s: self.s.spread(i),
-            gamma: [a.spread(i), b.spread(i), e.spread(i)],
-            gamma_rate: [da.spread(i), db.spread(i), de.spread(i)],
-        }
-    }
-
     /// The points as constants.
     #[inline(always)]
     fn fixed_point<const N: usize, const M: usize>(&self) -> Point<Jet<L, N, M>> {

@@ -1,9 +1,10 @@
-use super::batch::integrate_many;
 use super::differentiate::{Fibre, FibreResponse, Level, isotropic_response, local_response};
 use super::gradient::{GradientResponse, GradientSite, isotropic_gradient_response, local_gradient_response};
-use super::integrate::{Site, integrate_local, integrate_sectional};
+use super::integrate::Site;
 use super::kinematics::{Deformation, Invariants, Point};
 use super::response::{Points, Request, Response, Station};
+use super::stress_free::WithoutPressure;
+use super::task::Task;
 use crate::error::Result;
 use crate::lie::Strain;
 use crate::scalar::{Lane, Scalar};
@@ -51,6 +52,24 @@ pub trait Isotropic: Send + Sync {
     fn stress_free_energy_density<D: Scalar>(&self, invariants: &Invariants<D>, at: &Point<D>) -> D {
         let rest = Point { x: at.x.re(), y: at.y.re(), s: at.s.re() };
         self.energy_density(invariants, at) - invariants.j() * reference_pressure(self, &rest)
+    }
+
+    /// The sums over a section. The library's business: its own laws have it compiled with it (`compiled_here`).
+    #[doc(hidden)]
+    fn perform(&self, task: &mut Task<'_>) -> Result<()>
+    where
+        Self: Sized,
+    {
+        task.perform(self)
+    }
+
+    /// The sums of the law with the pressure taken off that it has at rest, likewise.
+    #[doc(hidden)]
+    fn perform_stress_free(&self, task: &mut Task<'_>) -> Result<()>
+    where
+        Self: Sized,
+    {
+        task.perform(&WithoutPressure(self))
     }
 }
 
@@ -105,6 +124,15 @@ pub trait Local: Send + Sync {
         local_response::<Self, L, O>(self, fibre)
     }
 
+    /// The sums over a section. The library's business, overridden by the isotropic level.
+    #[doc(hidden)]
+    fn perform(&self, task: &mut Task<'_>) -> Result<()>
+    where
+        Self: Sized,
+    {
+        task.perform(self)
+    }
+
     /// The derivatives at a block of points whose whole deformation gradient is known. The library's business, overridden by the
     /// isotropic level.
     #[doc(hidden)]
@@ -135,6 +163,10 @@ impl<M: Isotropic> Local for M {
     #[inline(always)]
     fn respond<L: Lane, O: Level>(&self, fibre: &Fibre<L>) -> FibreResponse<L> {
         isotropic_response::<Self, L, O>(self, fibre)
+    }
+
+    fn perform(&self, task: &mut Task<'_>) -> Result<()> {
+        Isotropic::perform(self, task)
     }
 
     #[inline(always)]
@@ -188,35 +220,14 @@ pub trait Sectional: Send + Sync {
         false
     }
 
-    /// The sum over the points of a section. The library's business, overridden by the cheaper levels.
+    /// The sums over a section. The library's business, overridden by the cheaper levels.
     #[doc(hidden)]
-    fn sum(&self, points: &Points, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
-        integrate_sectional(self, Site { points, at, strain }, request)
+    fn perform(&self, task: &mut Task<'_>) -> Result<()>
+    where
+        Self: Sized,
+    {
+        task.perform_sectional(self)
     }
-
-    /// The sums for many strains. The library's business, overridden by the cheaper levels.
-    #[doc(hidden)]
-    fn sum_many(
-        &self,
-        points: &Points,
-        sites: &[(Station, Strain)],
-        request: Request,
-        out: &mut [Response],
-    ) -> Result<()> {
-        one_by_one(sites, out, |at, strain| self.sum(points, at, strain, request))
-    }
-}
-
-/// Fills `out` one strain at a time.
-pub(super) fn one_by_one(
-    sites: &[(Station, Strain)],
-    out: &mut [Response],
-    respond: impl Fn(&Station, &Strain) -> Result<Response>,
-) -> Result<()> {
-    for ((at, strain), out) in sites.iter().zip(out) {
-        *out = respond(at, strain)?;
-    }
-    Ok(())
 }
 
 impl<L: Local> Sectional for L {
@@ -241,19 +252,8 @@ impl<L: Local> Sectional for L {
         Local::domain(self)
     }
 
-    #[inline(always)]
-    fn sum(&self, points: &Points, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
-        integrate_local(self, Site { points, at, strain }, request)
-    }
-
-    fn sum_many(
-        &self,
-        points: &Points,
-        sites: &[(Station, Strain)],
-        request: Request,
-        out: &mut [Response],
-    ) -> Result<()> {
-        integrate_many(self, points, sites, request, out)
+    fn perform(&self, task: &mut Task<'_>) -> Result<()> {
+        Local::perform(self, task)
     }
 }
 
@@ -281,7 +281,10 @@ pub trait Material: Send + Sync {
         request: Request,
         out: &mut [Response],
     ) -> Result<()> {
-        one_by_one(sites, out, |at, strain| self.integrate(points, at, strain, request))
+        for ((at, strain), out) in sites.iter().zip(out) {
+            *out = self.integrate(points, at, strain, request)?;
+        }
+        Ok(())
     }
 
     /// The degree of the energy density as a polynomial in the strain, x and y; `None` where it is not one.
@@ -306,7 +309,7 @@ impl<L: Sectional> Material for L {
         strain: &Strain,
         request: Request,
     ) -> Result<Response> {
-        self.sum(points, at, strain, request)
+        Task::respond(Site { points, at, strain }, request, |task| self.perform(task))
     }
 
     fn integrate_many(
@@ -316,7 +319,7 @@ impl<L: Sectional> Material for L {
         request: Request,
         out: &mut [Response],
     ) -> Result<()> {
-        self.sum_many(points, sites, request, out)
+        self.perform(&mut Task::many(points, sites, request, out))
     }
 
     fn polynomial_degree(&self) -> Option<usize> {

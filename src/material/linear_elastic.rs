@@ -1,3 +1,4 @@
+use super::compiled_here::compiled_here;
 use super::kinematics::{Deformation, Point};
 use super::law::Sectional;
 use crate::error::{Error, Result};
@@ -62,4 +63,6 @@ impl Sectional for LinearElastic {
     fn is_uniform(&self) -> bool {
         true
     }
+
+    compiled_here!(perform_sectional);
 }

@@ -11,7 +11,7 @@
 //! and in one of three ways: as an implementation of the trait; with the macro of the same name in closure syntax
 //! ([`isotropic!`](crate::isotropic!), [`local!`](crate::local!), [`sectional!`](crate::sectional!)), which expands to the
 //! trait; or as a real closure over one concrete [jet](LocalJet) ([`isotropic`], [`local`], [`sectional`]), quickest to write
-//! and much slower to run. All of them are a [`Material`], which is all that a section asks for.
+//! and some three times slower to run. All of them are a [`Material`], which is all that a section asks for.
 //!
 //! The laws at hand, with the moduli at rest of a section that cannot contract:
 //!
@@ -41,10 +41,13 @@
 mod arruda_boyce;
 mod batch;
 mod blatz_ko;
+mod blocks;
 mod closure;
 mod coefficient_table;
 mod combine;
+mod compiled_here;
 mod constants;
+mod diagnose;
 mod differentiate;
 mod fibre_direction;
 mod fibres;
@@ -62,12 +65,17 @@ mod macros;
 mod mooney_rivlin;
 mod neo_hookean;
 mod ogden;
+mod places;
 mod polynomial;
 mod response;
 mod saint_venant_kirchhoff;
+mod scratch;
+mod sectional;
+mod span;
 mod spectral;
 mod stress_free;
 mod sums;
+mod task;
 mod walk;
 mod yeoh;
 
@@ -103,4 +111,6 @@ pub(crate) use response::check_strain;
 pub use response::{PointRates, Points, Reference, Request, Response, Station};
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
 pub use stress_free::{ReferencePressure, StressFree};
+#[doc(hidden)]
+pub use task::Task;
 pub use yeoh::Yeoh;

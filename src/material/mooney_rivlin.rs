@@ -1,3 +1,4 @@
+use super::compiled_here::compiled_here;
 use super::kinematics::{Invariants, Point};
 use super::law::Isotropic;
 use crate::error::{Error, Result};
@@ -75,4 +76,7 @@ impl Isotropic for MooneyRivlin {
     fn stress_free_energy_density<D: Scalar>(&self, i: &Invariants<D>, _at: &Point<D>) -> D {
         i.i1_excess() * self.c1 + i.i2_excess() * self.c2
     }
+
+    compiled_here!(perform);
+    compiled_here!(perform_stress_free);
 }

@@ -1,3 +1,4 @@
+use super::compiled_here::compiled_here;
 use super::kinematics::{Invariants, Point};
 use super::law::Isotropic;
 use crate::error::{Error, Result};
@@ -63,4 +64,6 @@ impl Isotropic for NeoHookean {
     fn domain(&self) -> &'static str {
         "finite, which needs J > 0"
     }
+
+    compiled_here!(perform);
 }

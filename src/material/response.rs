@@ -1,4 +1,4 @@
-use nalgebra::Matrix6;
+use nalgebra::{ArrayStorage, Matrix6, Vector3};
 
 use crate::error::{Error, Result};
 use crate::lie::{Strain, Twist, Wrench};
@@ -32,10 +32,16 @@ pub struct Response {
 }
 
 impl Response {
+    pub(super) const ZERO: Self = {
+        let wrench = Wrench { moment: Vector3::new(0.0, 0.0, 0.0), force: Vector3::new(0.0, 0.0, 0.0) };
+        let tangent = Matrix6::from_array_storage(ArrayStorage([[0.0; 6]; 6]));
+        Self { energy: 0.0, wrench, tangent, wrench_rate: wrench }
+    };
+
     /// No response.
     #[inline(always)]
     pub fn zero() -> Self {
-        Self { energy: 0.0, wrench: Wrench::zero(), tangent: Matrix6::zeros(), wrench_rate: Wrench::zero() }
+        Self::ZERO
     }
 
     /// Whether every number is finite.

@@ -1,6 +1,7 @@
 use super::kinematics::{Invariants, Point};
 use super::law::{Isotropic, Material};
 use super::response::{Points, Request, Response, Station};
+use super::task::Task;
 use crate::error::Result;
 use crate::lie::Strain;
 use crate::scalar::Scalar;
@@ -69,12 +70,30 @@ impl<L: Isotropic> Isotropic for ReferencePressure<L> {
         self.0.stress_free_energy_density(invariants, at)
     }
 
+    fn perform(&self, task: &mut Task<'_>) -> Result<()> {
+        self.0.perform_stress_free(task)
+    }
+
     fn degree(&self) -> Option<usize> {
         self.0.degree()
     }
 
     fn is_uniform(&self) -> bool {
         self.0.is_uniform()
+    }
+
+    fn domain(&self) -> &'static str {
+        self.0.domain()
+    }
+}
+
+/// [`ReferencePressure`] of a law that is borrowed.
+pub(super) struct WithoutPressure<'a, L>(pub(super) &'a L);
+
+impl<L: Isotropic> Isotropic for WithoutPressure<'_, L> {
+    #[inline(always)]
+    fn energy_density<D: Scalar>(&self, invariants: &Invariants<D>, at: &Point<D>) -> D {
+        self.0.stress_free_energy_density(invariants, at)
     }
 
     fn domain(&self) -> &'static str {

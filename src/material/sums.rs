@@ -1,8 +1,12 @@
 //! Sums over the points of a section, one partial sum a lane.
 
+use nalgebra::{ArrayStorage, Matrix6};
+
+use super::blocks::Eight;
 use super::differentiate::{FibreResponse, Level};
 use super::response::{Request, Response};
 use crate::lie;
+use crate::scalar::lane::MAX_LANES;
 use crate::scalar::{Jet, Lane};
 
 /// Partial sums of U, Ψ, ∂Ψ/∂Δξ (upper triangle by rows) and Ψ′.
@@ -35,27 +39,6 @@ impl<L: Lane> Block<L> {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         Self { x, y, weight, x_rate: zero, y_rate: zero, weight_rate: zero, volume: one, inverse_volume: one }
     }
-
-    /// The same point in every lane.
-    #[inline(always)]
-    pub(super) fn fixed(x: f64, y: f64, weight: f64) -> Self {
-        Self::at(L::splat(x), L::splat(y), L::splat(weight))
-    }
-
-    /// The point of lane `i` in every lane, its weight in one.
-    #[inline(always)]
-    pub(super) fn only(&self, i: usize) -> Self {
-        Self {
-            x: self.x.spread(i),
-            y: self.y.spread(i),
-            weight: self.weight.isolate(i),
-            x_rate: self.x_rate.spread(i),
-            y_rate: self.y_rate.spread(i),
-            weight_rate: self.weight_rate.isolate(i),
-            volume: self.volume.spread(i),
-            inverse_volume: self.inverse_volume.spread(i),
-        }
-    }
 }
 
 impl<L: Lane> Sums<L> {
@@ -73,15 +56,12 @@ impl<L: Lane> Sums<L> {
         Self { energy, ..Self::zero() }
     }
 
-    /// Adds a block of a local law: w j u, w Bᵀ g, (w/j) Bᵀ h B and (w′ Bᵀ + w B′ᵀ) g + w Bᵀ g′.
+    /// Adds energy and wrench of a local law at a block: w j u, w Bᵀ g, and for the rate (w′ Bᵀ + w B′ᵀ) g + w Bᵀ g′.
     #[inline(always)]
-    pub(super) fn add_local<O: Level>(&mut self, p: &Block<L>, local: &FibreResponse<L>) {
+    pub(super) fn add_wrench<O: Level>(&mut self, p: &Block<L>, local: &FibreResponse<L>) {
         self.energy = (p.weight * p.volume).mul_add(local.energy, self.energy);
         if O::REQUEST >= Request::Wrench {
             add_wrench(&mut self.wrench, &local.stress, p.x, p.y, p.weight);
-        }
-        if O::REQUEST >= Request::Tangent {
-            self.add_tangent(&local.stiffness, p.x, p.y, p.weight * p.inverse_volume);
         }
         if O::REQUEST >= Request::Rate {
             add_wrench(&mut self.rate, &local.stress, p.x, p.y, p.weight_rate);
@@ -94,9 +74,18 @@ impl<L: Lane> Sums<L> {
         }
     }
 
+    /// Adds the tangent of a local law at a block, (w/j) Bᵀ h B. A pass of its own: with the other sums there would be more than a machine has
+    /// registers, and what is kept in memory waits for the store of the block before.
+    #[inline(always)]
+    pub(super) fn add_tangent<O: Level>(&mut self, p: &Block<L>, local: &FibreResponse<L>) {
+        if O::REQUEST >= Request::Tangent {
+            self.add_stiffness(&local.stiffness, p.x, p.y, p.weight * p.inverse_volume);
+        }
+    }
+
     /// K += w Bᵀ h B, upper triangle.
     #[inline(always)]
-    fn add_tangent(&mut self, h: &[L; 6], x: L, y: L, w: L) {
+    fn add_stiffness(&mut self, h: &[L; 6], x: L, y: L, w: L) {
         let (aa, ab, ae) = (h[0] * w, h[1] * w, h[2] * w);
         let (bb, be, ee) = (h[3] * w, h[4] * w, h[5] * w);
         // rows of h taken to the twist about e₃: x h_b· − y h_a·
@@ -146,86 +135,177 @@ impl<L: Lane> Sums<L> {
         }
     }
 
-    /// The sums of one lane, where each lane is a strain.
+    /// U, over all lanes.
     #[inline(always)]
-    pub(super) fn read_lane(&self, lane: usize, request: Request, out: &mut Response) {
-        *out = Response::zero();
-        out.energy = self.energy.lane(lane);
-        let six = |v: &[L; 6]| lie::Wrench::from_array(std::array::from_fn(|i| v[i].lane(lane)));
-        if request >= Request::Wrench {
-            out.wrench = six(&self.wrench);
+    pub(super) fn energy(&self) -> f64 {
+        self.energy.sum()
+    }
+
+    /// Adds the sums over the lanes to the totals.
+    #[inline(always)]
+    pub(super) fn add_to(&self, request: Request, totals: &mut Totals) {
+        let (zero, w, k, r) = (L::splat(0.0), &self.wrench, &self.tangent, &self.rate);
+        if request == Request::Energy {
+            totals.0[0].0[0] += self.energy();
+            return;
         }
+        totals.add::<L>(0, &[self.energy, w[0], w[1], w[2], w[3], w[4], w[5], k[0]]);
         if request >= Request::Tangent {
-            for i in 0..6 {
-                for j in i..6 {
-                    let k = self.tangent[packed_index(6, i, j)].lane(lane);
-                    out.tangent[(i, j)] = k;
-                    out.tangent[(j, i)] = k;
-                }
-            }
+            totals.add::<L>(1, &[k[1], k[2], k[3], k[4], k[5], k[6], k[7], k[8]]);
+            totals.add::<L>(2, &[k[9], k[10], k[11], k[12], k[13], k[14], k[15], k[16]]);
+            totals.add::<L>(3, &[k[17], k[18], k[19], k[20], r[0], r[1], r[2], r[3]]);
         }
         if request >= Request::Rate {
-            out.wrench_rate = six(&self.rate);
+            totals.add::<L>(4, &[r[4], r[5], zero, zero, zero, zero, zero, zero]);
         }
     }
 
-    /// Whether every sum that was asked for is finite in every lane.
+    /// The sums of each lane as they stand, where each lane is a strain.
     #[inline(always)]
-    pub(super) fn is_finite(&self, request: Request) -> bool {
-        let mut all = self.energy;
+    pub(super) fn add_to_strains(&self, part: usize, request: Request, totals: &mut [Eight; ENTRIES]) {
+        add_lanes(&mut totals[0], part, self.energy);
         if request >= Request::Wrench {
-            all = all + total(&self.wrench);
-        }
-        if request >= Request::Tangent {
-            all = all + total(&self.tangent);
-        }
-        if request >= Request::Rate {
-            all = all + total(&self.rate);
-        }
-        // 0 x is 0 where x is finite and NaN elsewhere
-        (L::splat(0.0) * all).sum() == 0.0
-    }
-
-    /// Fills in the sums over the lanes; the energy is NaN where the state is not admissible or a sum not finite.
-    #[inline(always)]
-    pub(super) fn finish(&self, request: Request, admissible: bool, out: &mut Response) {
-        out.energy = self.energy.sum();
-        if request >= Request::Wrench {
-            out.wrench = lie::Wrench::from_array(sum6(&self.wrench));
-        }
-        if request >= Request::Tangent {
             for i in 0..6 {
-                for j in i..6 {
-                    let sum = self.tangent[packed_index(6, i, j)].sum();
-                    out.tangent[(i, j)] = sum;
-                    out.tangent[(j, i)] = sum;
-                }
+                add_lanes(&mut totals[WRENCH + i], part, self.wrench[i]);
+            }
+        }
+        if request >= Request::Tangent {
+            for i in 0..21 {
+                add_lanes(&mut totals[TANGENT + i], part, self.tangent[i]);
             }
         }
         if request >= Request::Rate {
-            out.wrench_rate = lie::Wrench::from_array(sum6(&self.rate));
+            for i in 0..6 {
+                add_lanes(&mut totals[RATE + i], part, self.rate[i]);
+            }
         }
-        // the energy alone speaks for itself
-        let finite = request == Request::Energy || self.is_finite(request);
+    }
+}
+
+#[inline(always)]
+fn add_lanes<L: Lane>(total: &mut Eight, part: usize, value: L) {
+    let sum = total.part::<L>(part) + value;
+    total.set_part(part, sum);
+}
+
+/// Where wrench, tangent and rate begin among the entries of a response: the energy is the first.
+const WRENCH: usize = 1;
+const TANGENT: usize = 7;
+const RATE: usize = 28;
+/// How many entries there are.
+pub(super) const ENTRIES: usize = 34;
+
+/// U, Ψ, ∂Ψ/∂Δξ and Ψ′, an entry after the other.
+#[derive(Clone, Copy, Debug)]
+pub struct Totals([Eight; 5]);
+
+impl Totals {
+    pub(super) const ZERO: Self = Self([Eight::ZERO; 5]);
+
+    /// Adds the sums over the lanes of eight entries.
+    #[inline(always)]
+    fn add<L: Lane>(&mut self, block: usize, values: &[L; MAX_LANES]) {
+        let mut sums = Eight::ZERO;
+        L::sum_each(values, &mut sums.0);
+        for part in 0..MAX_LANES / L::LANES {
+            let sum = self.0[block].part::<L>(part) + sums.part::<L>(part);
+            self.0[block].set_part(part, sum);
+        }
+    }
+
+    /// Adds other totals.
+    pub(super) fn add_all(&mut self, other: &Self) {
+        for (mine, theirs) in self.0.iter_mut().zip(&other.0) {
+            for i in 0..MAX_LANES {
+                mine.0[i] += theirs.0[i];
+            }
+        }
+    }
+
+    /// The totals of strain `i` of several.
+    pub(super) fn of_strain(i: usize, entries: &[Eight; ENTRIES]) -> Self {
+        let mut totals = Self::ZERO;
+        for (k, entry) in entries.iter().enumerate() {
+            totals.0[k / MAX_LANES].0[k % MAX_LANES] = entry.0[i];
+        }
+        totals
+    }
+
+    #[inline(always)]
+    fn entry(&self, k: usize) -> f64 {
+        self.0[k / MAX_LANES].0[k % MAX_LANES]
+    }
+
+    /// Makes the energy NaN where the state is not admissible or an entry that was asked for not finite.
+    #[inline(always)]
+    pub(super) fn judge<L: Lane>(&mut self, request: Request, admissible: bool) {
+        let finite = match request {
+            Request::Energy => true, // speaks for itself
+            Request::Wrench => {
+                let six = self.six(WRENCH);
+                // 0 x is 0 where x is finite and NaN elsewhere
+                (six.moment + six.force).sum() * 0.0 == 0.0
+            }
+            Request::Tangent | Request::Rate => self.is_finite::<L>(),
+        };
         if !(admissible && finite) {
-            out.energy = f64::NAN;
+            self.0[0].0[0] = f64::NAN;
         }
     }
-}
 
-/// Σ v in four strands, so that no addition waits for the one before.
-#[inline(always)]
-fn total<L: Lane, const N: usize>(v: &[L; N]) -> L {
-    let mut strands = [v[0], v[1], v[2], v[3]];
-    for i in 4..N {
-        strands[i % 4] = strands[i % 4] + v[i];
+    /// U.
+    #[inline(always)]
+    pub(super) fn energy(&self) -> f64 {
+        self.entry(0)
     }
-    (strands[0] + strands[1]) + (strands[2] + strands[3])
-}
 
-#[inline(always)]
-fn sum6<L: Lane>(v: &[L; 6]) -> [f64; 6] {
-    [v[0].sum(), v[1].sum(), v[2].sum(), v[3].sum(), v[4].sum(), v[5].sum()]
+    /// The response, which is written entry by entry where it goes: what was not asked for is zero.
+    #[inline(always)]
+    pub(super) fn response(&self, request: Request) -> Response {
+        let energy = self.energy();
+        if request == Request::Energy {
+            return Response { energy, ..Response::ZERO };
+        }
+        let (wrench, wrench_rate) = (self.six(WRENCH), self.six(RATE));
+        let tangent = if request == Request::Wrench { Matrix6::zeros() } else { self.tangent() };
+        Response { energy, wrench, tangent, wrench_rate }
+    }
+
+    #[inline(always)]
+    fn tangent(&self) -> Matrix6<f64> {
+        let mut columns = [[0.0; 6]; 6];
+        let mut k = TANGENT;
+        for i in 0..6 {
+            for j in i..6 {
+                columns[i][j] = self.entry(k);
+                columns[j][i] = self.entry(k);
+                k += 1;
+            }
+        }
+        Matrix6::from_array_storage(ArrayStorage(columns))
+    }
+
+    #[inline(always)]
+    fn six(&self, k: usize) -> lie::Wrench {
+        let mut six = [0.0; 6];
+        for i in 0..6 {
+            six[i] = self.entry(k + i);
+        }
+        lie::Wrench::from_array(six)
+    }
+
+    /// Whether every entry is finite.
+    #[inline(always)]
+    fn is_finite<L: Lane>(&self) -> bool {
+        // 0 x is 0 where x is finite and NaN elsewhere
+        let zero = L::splat(0.0);
+        let mut all = zero;
+        for part in 0..MAX_LANES / L::LANES {
+            let [a, b, c, d, e] = super::blocks::parts::<L, 5>(&self.0, part);
+            all = zero.mul_add((a + b) + (c + d) + e, all);
+        }
+        all.sum() == 0.0
+    }
 }
 
 /// Where entry (i, j), i ≤ j, of a symmetric n×n matrix lies in its upper triangle stored by rows.

@@ -4,11 +4,12 @@ use nalgebra::{Matrix3, Matrix6, SMatrix, Vector6};
 
 use super::collocation::Collocation;
 use super::element::{ElementState, Linearisation, Variations};
+use super::lanes::Eliminated;
 use super::load_terms::{Ends, LoadTerms};
 use super::planar;
 use super::stage_system::{StageSystem, cross, inverse, inverse_of_free};
 use super::stages::solve_general;
-use crate::lie::{Strain, TwistMap, Wrench};
+use crate::lie::{Pose, Strain, TwistMap, Wrench};
 
 /// Columns of everything that depends on the element's first node: δΛ_i, then 1, then ζ_i.
 ///
@@ -77,6 +78,34 @@ impl<const S: usize> Condensed<S> {
             Some(()) => Some(()),
             None => self.fill_general(table, state),
         }
+    }
+
+    /// Takes over what a lane has eliminated. `None` if it cannot be trusted.
+    pub(crate) fn take(&mut self, from: &Eliminated, lane: usize, end: &Pose) -> Option<()> {
+        if !from.is_sound(lane) {
+            return None;
+        }
+        for (k, strain) in self.strain.iter_mut().enumerate() {
+            from.strain(lane, k, &mut strain.as_mut_slice()[..6 * LOADLESS]);
+        }
+        self.loaded = false;
+        let t = &mut self.transfer;
+        t.zeta_from_zeta = end.adjoint_inverse().to_matrix();
+        // Ad_eᵀ = [[Rᵀ, −Rᵀ p^], [0, Rᵀ]]: Ad_e⁻¹ with its blocks the other way
+        t.wrench_from_zeta = Matrix6::zeros();
+        for c in 0..6 {
+            let column = from.end(lane, c);
+            for r in 0..6 {
+                t.zeta_from_wrench[(r, c)] = column[r];
+                let adjoint = t.zeta_from_zeta[((r + 3) % 6, (c + 3) % 6)];
+                t.wrench_from_wrench[(r, c)] = column[6 + r] + adjoint;
+            }
+        }
+        let column = from.end(lane, ONE);
+        for r in 0..6 {
+            (t.zeta[r], t.wrench[r]) = (column[r], column[6 + r]);
+        }
+        Some(())
     }
 
     /// By elimination of all strains at once, with pivoting: where the stiffness against shear and extension is not definite, or
@@ -166,8 +195,12 @@ impl<const S: usize> Condensed<S> {
         let mut system = StageSystem::<S, C>::new::<SOFT>(state, &variations);
         let mut ends = Ends::<S>::default();
         if let Some(loads) = state.load {
-            let from_zeta =
-                LoadTerms::new(state, loads, &variations)?.add(table, state, &mut system, &mut ends);
+            let from_zeta = LoadTerms::new::<SOFT>(state, loads, &variations)?.add::<C, SOFT>(
+                table,
+                state,
+                &mut system,
+                &mut ends,
+            );
             self.transfer.wrench_from_zeta = from_zeta;
         } else {
             self.transfer.wrench_from_zeta = Matrix6::zeros();
@@ -205,7 +238,10 @@ impl<const S: usize> Condensed<S> {
         let mut n = cross(force, &w);
         if C == COLUMNS {
             for l in 0..S {
-                m -= loads.blocks[l][0] * angular[l] + loads.blocks[l][1] * linear[l];
+                m -= loads.blocks[l][0] * angular[l];
+                if SOFT {
+                    m -= loads.blocks[l][1] * linear[l];
+                }
                 n -= loads.blocks[l][2] * angular[l];
             }
         }

@@ -37,7 +37,11 @@ impl<D: Scalar, const S: usize> Kinematics<D, S> {
     /// Λ_i and Λ_k of an element without distributed load.
     pub(crate) fn wrenches_without_load(&self, wrench_at_end: &Wrench<D>) -> (Wrench<D>, [Wrench<D>; S]) {
         let at_start = carried(&self.end.inverse(), wrench_at_end);
-        (at_start, self.stage.map(|pose| carried(&pose, &at_start)))
+        let mut stage = [at_start; S];
+        for (wrench, pose) in stage.iter_mut().zip(&self.stage) {
+            *wrench = carried(pose, &at_start);
+        }
+        (at_start, stage)
     }
 
     /// Λ_i and Λ_k from the wrench at the end and the loads of the stages.
@@ -116,7 +120,7 @@ impl<const S: usize> Kinematics<f64, S> {
 }
 
 /// Ad_gᵀ Λ = (Rᵀ(m − p × n), Rᵀ n).
-#[inline]
+#[inline(always)]
 fn carried<D: Scalar>(pose: &Pose<D>, wrench: &Wrench<D>) -> Wrench<D> {
     let moment = wrench.moment - pose.position.cross(&wrench.force);
     Wrench::new(pose.rotation.tr_mul(&moment), pose.rotation.tr_mul(&wrench.force))

@@ -28,7 +28,9 @@ pub(super) struct LoadTerms<const S: usize> {
 
 impl<const S: usize> LoadTerms<S> {
     /// G_l = Ad_l⁻ᵀ(D_l − L(f̄_l)), e_l = Ad_l⁻ᵀ D_l Ad_l⁻¹; `None` for a load whose force depends on where it acts.
-    pub(super) fn new(
+    ///
+    /// Without shear and extension (`SOFT` is false) their blocks are left out.
+    pub(super) fn new<const SOFT: bool>(
         state: &ElementState<'_, S>,
         loads: &[crate::load::LoadWrench; S],
         variations: &Variations<S>,
@@ -46,8 +48,8 @@ impl<const S: usize> LoadTerms<S> {
             let g12 = r * (d(0, 3) - force);
             for m in 0..S {
                 let map = &variations.stage[l][m];
-                terms.g[l][m] =
-                    [g11 * map.diagonal + g12 * map.lower, g12 * map.diagonal, g21 * map.diagonal];
+                let soft = if SOFT { g12 * map.diagonal } else { Matrix3::zeros() };
+                terms.g[l][m] = [g11 * map.diagonal + g12 * map.lower, soft, g21 * map.diagonal];
             }
             let inverse = pose.adjoint_inverse().to_matrix();
             terms.e[l] = inverse.transpose() * load.tangent * inverse;
@@ -56,7 +58,7 @@ impl<const S: usize> LoadTerms<S> {
     }
 
     /// Adds Ad_kᵀ h Σ a_kl δF_l to the stages, and returns what of −Ad_eᵀ h Σ b_l δF_l belongs to ζ_i.
-    pub(super) fn add<const C: usize>(
+    pub(super) fn add<const C: usize, const SOFT: bool>(
         &self,
         table: &Collocation<S>,
         state: &ElementState<'_, S>,
@@ -67,10 +69,12 @@ impl<const S: usize> LoadTerms<S> {
             let pose = &state.kinematics.stage[k];
             let weights = table.a[k].map(|a| state.h * a);
             for m in 0..S {
-                let [aa, al, la] = self.brought(&weights, m, &pose.rotation, &pose.position);
+                let [aa, al, la] = self.brought::<SOFT>(&weights, m, &pose.rotation, &pose.position);
                 system.angular_angular[k][m] += aa;
-                system.angular_linear[k][m] += al;
-                system.linear_angular[k][m] += la;
+                if SOFT {
+                    system.angular_linear[k][m] += al;
+                    system.linear_angular[k][m] += la;
+                }
             }
             let e = pose.adjoint().to_matrix().transpose() * self.weighted(&weights);
             for c in 0..6 {
@@ -82,21 +86,28 @@ impl<const S: usize> LoadTerms<S> {
         }
         let (pose, weights) = (&state.kinematics.end, table.b.map(|b| state.h * b));
         for m in 0..S {
-            ends.blocks[m] = self.brought(&weights, m, &pose.rotation, &pose.position);
+            ends.blocks[m] = self.brought::<SOFT>(&weights, m, &pose.rotation, &pose.position);
         }
         -(pose.adjoint().to_matrix().transpose() * self.weighted(&weights))
     }
 
     /// Ad_gᵀ Σ_l weight_l g_lm.
-    fn brought(&self, weights: &[f64; S], m: usize, r: &Matrix3<f64>, p: &Vector3<f64>) -> [Matrix3<f64>; 3] {
+    fn brought<const SOFT: bool>(
+        &self,
+        weights: &[f64; S],
+        m: usize,
+        r: &Matrix3<f64>,
+        p: &Vector3<f64>,
+    ) -> [Matrix3<f64>; 3] {
         let mut sum = [Matrix3::zeros(); 3];
         for l in 0..S {
-            for b in 0..3 {
+            for b in (0..3).filter(|&b| SOFT || b != 1) {
                 sum[b] += self.g[l][m][b] * weights[l];
             }
         }
         // Ad_gᵀ = [[Rᵀ, −Rᵀ p^], [0, Rᵀ]]
-        [r.tr_mul(&(sum[0] - cross(p, &sum[2]))), r.tr_mul(&sum[1]), r.tr_mul(&sum[2])]
+        let soft = if SOFT { r.tr_mul(&sum[1]) } else { sum[1] };
+        [r.tr_mul(&(sum[0] - cross(p, &sum[2]))), soft, r.tr_mul(&sum[2])]
     }
 
     fn weighted(&self, weights: &[f64; S]) -> Matrix6<f64> {

@@ -10,6 +10,7 @@ pub(crate) mod collocation;
 pub(crate) mod condense;
 pub(crate) mod element;
 pub(crate) mod joint;
+pub(crate) mod lanes;
 mod load_terms;
 pub(crate) mod magnus;
 mod planar;

@@ -79,7 +79,7 @@ impl<B: Elastic> Rod<B> {
     /// ```math
     /// \xi' = \Bigl(\frac{\partial\Psi}{\partial\Delta\xi} - \bar A\Bigr)^{-1}
     /// \Bigl(M\dot\eta - \mathrm{ad}_\eta^{\mathsf T} M\eta + \mathrm{ad}_\xi^{\mathsf T}\Psi - \Psi' + \bar B
-    /// + \frac{\partial\Psi}{\partial\Delta\xi}\,\xi^{*\prime}\Bigr)
+    /// + \frac{\partial\Psi}{\partial\Delta\xi}\,(\xi^*)'\Bigr)
     /// ```
     ///
     /// The last term is that of a reference that varies along s. Actuators of the section are in Ψ; the other loads are B̄ = −f̄ with Ā = 0, and

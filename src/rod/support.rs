@@ -33,6 +33,7 @@ impl Freedom {
 }
 
 /// What a support does to one freedom.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Condition {
     /// Nothing.

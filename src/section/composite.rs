@@ -72,6 +72,30 @@ impl CrossSection for Composite {
         Ok(total)
     }
 
+    /// Part by part, each with all the strains; one strain at a time where a part refuses one, so that the first of all is named.
+    fn respond_many(
+        &self,
+        sites: &[(Station, Strain)],
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        let count = sites.len().min(out.len());
+        let (sites, out) = (&sites[..count], &mut out[..count]);
+        let mut totals = vec![Response::zero(); count];
+        let mut of_part = totals.clone();
+        for (part, _) in &self.parts {
+            if part.respond_many(sites, request, &mut of_part).is_err() {
+                for ((at, strain), out) in sites.iter().zip(out) {
+                    *out = self.respond(at, strain, request)?;
+                }
+                return Ok(());
+            }
+            totals.iter_mut().zip(&of_part).for_each(|(total, response)| *total += *response);
+        }
+        out.copy_from_slice(&totals);
+        Ok(())
+    }
+
     fn adapt_to(&mut self, at: &Station) -> Result<()> {
         self.parts.iter_mut().try_for_each(|(part, _)| part.adapt_to(at))
     }

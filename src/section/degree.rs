@@ -65,9 +65,9 @@ impl StrainRange {
 }
 
 /// A shape and a material looked at through the samples of a [`StrainRange`].
-pub(super) struct Probe<'a, S, M> {
-    shape: &'a S,
-    material: &'a M,
+pub(super) struct Probe<'a> {
+    shape: &'a dyn Shape,
+    material: &'a dyn Material,
     at: Station,
     radius: f64,
     samples: [Strain; 6],
@@ -80,8 +80,8 @@ const COARSEST: usize = 6;
 /// 6 · 2⁴ and some: a law that is smooth over the range needs no more, one with a kink is not served by more.
 const FINEST: usize = 96;
 
-impl<'a, S: Shape, M: Material> Probe<'a, S, M> {
-    pub(super) fn new(shape: &'a S, material: &'a M, range: &StrainRange) -> Result<Self> {
+impl<'a> Probe<'a> {
+    pub(super) fn new(shape: &'a dyn Shape, material: &'a dyn Material, range: &StrainRange) -> Result<Self> {
         range.check()?;
         let points = shape.place(&shape.rule(OUTERMOST.min(shape.max_degree()))?, range.at.s)?;
         let radius = points.x.iter().zip(&points.y).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);

@@ -14,7 +14,7 @@ pub(super) struct Quadratic {
 
 impl Quadratic {
     /// Of a material on points that do not move; `None` where its energy is not quadratic or not known to be the same at every s.
-    pub(super) fn of(material: &impl Material, points: &Points) -> Result<Option<Self>> {
+    pub(super) fn of(material: &dyn Material, points: &Points) -> Result<Option<Self>> {
         if !(material.polynomial_degree().is_some_and(|d| d <= 2) && material.is_uniform()) {
             return Ok(None);
         }

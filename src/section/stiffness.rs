@@ -3,7 +3,7 @@ use nalgebra::{Matrix6, Vector6};
 use super::CrossSection;
 use crate::error::{Error, Result};
 use crate::lie::{Strain, Wrench};
-use crate::material::{Request, Response, Station};
+use crate::material::{Request, Response, Station, check_strain};
 
 /// A section given by its resultants alone: Ψ = K Δξ with a constant, symmetric, positive definite K.
 ///
@@ -66,17 +66,42 @@ impl Stiffness {
     }
 }
 
-impl CrossSection for Stiffness {
-    fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
-        crate::material::check_strain(strain, at.s)?;
-        let wrench = Wrench::from_vector(&(self.k * strain.to_vector()));
-        let mut response = Response { energy: 0.5 * strain.pair(&wrench), ..Response::zero() };
+impl Stiffness {
+    /// Writes what is asked for; the rest is left as it is.
+    fn answer(&self, at: &Station, strain: &Strain, request: Request, out: &mut Response) -> Result<()> {
+        check_strain(strain, at.s)?;
+        let wrench = Wrench::from_vector(&(&self.k * strain.to_vector()));
+        out.energy = 0.5 * strain.pair(&wrench);
         if request >= Request::Wrench {
-            response.wrench = wrench;
+            out.wrench = wrench;
         }
         if request >= Request::Tangent {
-            response.tangent = self.k;
+            out.tangent = self.k;
         }
+        Ok(())
+    }
+}
+
+impl CrossSection for Stiffness {
+    fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
+        let mut response = Response::zero();
+        self.answer(at, strain, request, &mut response)?;
         Ok(response)
+    }
+
+    fn respond_many(
+        &self,
+        sites: &[(Station, Strain)],
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        for ((at, strain), out) in sites.iter().zip(out) {
+            if request != Request::Tangent {
+                *out = Response::zero();
+            }
+            self.answer(at, strain, request, out)?;
+            out.wrench_rate = Wrench::zero();
+        }
+        Ok(())
     }
 }

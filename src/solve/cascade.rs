@@ -14,6 +14,7 @@ use super::solution::StaticSolution;
 use super::unknowns::Unknowns;
 use crate::body::Elastic;
 use crate::error::Error;
+use crate::lie::Strain;
 use crate::rod::Rod;
 
 /// Meshes a solve to an accuracy may try.
@@ -93,7 +94,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         let (coarse_mesh, coarse) = self.climb(std::iter::once(coarse_mesh))?;
         let parts = vec![2; coarse_mesh.elements()];
         let mut mesh = coarse_mesh.refined(&parts);
-        let start = coarse.unknowns.prolonged(&coarse_mesh, &parts);
+        let start = coarse.unknowns.prolonged(&coarse_mesh, &parts, None);
         self.hold_neutral_modes(&mut mesh, &start);
         let fine = self.solve(&mesh, start)?;
         if let (Some(coarse), Some(fine)) = (&coarse.state, &fine.state) {
@@ -102,15 +103,19 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
             let length = self.rod.body().length();
             self.report.error = difference(coarse, fine, parts.into_iter(), length).scaled(factor);
         }
-        self.answer(&mesh, &fine)
+        let answer = self.answer(&mesh, &fine, None);
+        for outcome in [coarse, fine] {
+            outcome.state.into_iter().for_each(|state| self.buffers.recycle(state));
+        }
+        answer
     }
 
     /// Cuts elements until the estimated error is below `accuracy`.
     pub(super) fn to(&mut self, accuracy: f64) -> Solved {
-        self.twice(|cascade| cascade.to_once(accuracy))
+        self.twice(|cascade| cascade.reach_once(accuracy))
     }
 
-    fn to_once(&mut self, accuracy: f64) -> Solved {
+    fn reach_once(&mut self, accuracy: f64) -> Solved {
         self.check_supports()?;
         let length = self.rod.body().length();
         self.newton.stop = Stop::Error(FIRST_NEWTON);
@@ -121,7 +126,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         let (mut best, mut stalls) = (f64::INFINITY, 0);
         for _ in 0..MAX_LEVELS {
             let mesh = level.mesh.refined(&parts);
-            let start = level.outcome.unknowns.prolonged(&level.mesh, &parts);
+            let start = level.outcome.unknowns.prolonged(&level.mesh, &parts, Some(&level.defect.ends));
             predicted *= promised(&level.defect.shares, &parts, 2 * S);
             self.newton.stop =
                 Stop::Error((NEWTON_SHARE * predicted.max(accuracy)).clamp(1e-18, FIRST_NEWTON));
@@ -129,7 +134,11 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
             self.report.error = estimate(&level, &fine, &parts, length);
             let estimated = self.report.error.relative(length);
             if estimated <= accuracy {
-                return self.answer(&fine.mesh, &fine.outcome);
+                let answer = self.answer(&fine.mesh, &fine.outcome, Some(&fine.defect.ends));
+                for outcome in [level.outcome, fine.outcome] {
+                    outcome.state.into_iter().for_each(|state| self.buffers.recycle(state));
+                }
+                return answer;
             }
             parts = cuts(&fine.defect.shares, accuracy / estimated, 2 * S, MOST_PARTS);
             predicted = estimated;
@@ -149,7 +158,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         let elements = level.mesh.elements();
         let estimated = self.report.error.relative(length);
         let reason = Reason::Accuracy { asked: accuracy, estimated, elements };
-        let last = self.answer(&level.mesh, &level.outcome).ok();
+        let last = self.answer(&level.mesh, &level.outcome, Some(&level.defect.ends)).ok();
         Err(Box::new(Failure { reason, report: self.report.clone(), last }))
     }
 
@@ -200,7 +209,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
     fn level_of(mesh: Mesh<'r, B, S>, outcome: Outcome<S>) -> Level<'r, B, S> {
         let defect = match &outcome.state {
             Some(state) => Defect::of(&mesh, &outcome.unknowns.strains, state),
-            None => Defect { shares: vec![0.0; mesh.elements()] },
+            None => Defect::none(mesh.elements()),
         };
         Level { mesh, outcome, defect }
     }
@@ -219,7 +228,12 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         Ok(outcome)
     }
 
-    fn answer(&mut self, mesh: &Mesh<'_, B, S>, outcome: &Outcome<S>) -> Solved {
+    fn answer(
+        &mut self,
+        mesh: &Mesh<'_, B, S>,
+        outcome: &Outcome<S>,
+        ends: Option<&[[Strain; 2]]>,
+    ) -> Solved {
         self.report.stability = self.stability_of(mesh, outcome, NEUTRAL);
         if self.report.stability.is_unstable() && !self.accept_unstable {
             return Err(unstable(mesh, outcome, self.report.stability, self));
@@ -231,7 +245,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
             };
             return Err(Box::new(Failure { reason, report: self.report.clone(), last: None }));
         };
-        Ok(describe(mesh, &outcome.unknowns.strains, state, self.report.clone()))
+        Ok(describe(mesh, &outcome.unknowns.strains, state, ends, self.report.clone()))
     }
 }
 

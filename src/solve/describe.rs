@@ -1,5 +1,7 @@
 //! From the unknowns of a mesh to what a user reads.
 
+use nalgebra::{Matrix6, Vector6};
+
 use super::equilibrium::Configuration;
 use super::failure::{Failure, Reason};
 use super::mesh::Mesh;
@@ -17,8 +19,10 @@ pub(super) fn failed<B: Elastic, const S: usize>(
     outcome: Outcome<S>,
     report: Report,
 ) -> Box<Failure> {
-    let last =
-        outcome.state.as_ref().map(|state| describe(mesh, &outcome.unknowns.strains, state, report.clone()));
+    let last = outcome
+        .state
+        .as_ref()
+        .map(|state| describe(mesh, &outcome.unknowns.strains, state, None, report.clone()));
     let reason = outcome.failure.unwrap_or(Reason::IterationLimit {
         limit: outcome.iterations,
         step: f64::NAN,
@@ -27,11 +31,13 @@ pub(super) fn failed<B: Elastic, const S: usize>(
     Box::new(Failure { reason, report, last })
 }
 
-/// The solution that a configuration describes.
+/// The solution that a configuration describes; `ends` says by how much the strains at the ends of elements differ from the polynomials,
+/// where that is known.
 pub(super) fn describe<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     strains: &StageStrains<S>,
     state: &Configuration<S>,
+    ends: Option<&[[Strain; 2]]>,
     report: Report,
 ) -> StaticSolution {
     let mut stages = Vec::with_capacity(S * mesh.elements());
@@ -45,8 +51,9 @@ pub(super) fn describe<B: Elastic, const S: usize>(
             });
         }
     }
-    let node = |at: usize, element: usize, tau: f64, pose: Pose, wrench: Wrench| {
-        let guess = mesh.interpolate(&strains[element], tau);
+    let node = |at: usize, element: usize, end: usize, pose: Pose, wrench: Wrench| {
+        let guess = mesh.interpolate(&strains[element], end as f64);
+        let guess = ends.map_or(guess, |ends| guess + ends[element][end]);
         let s = mesh.node_s(at);
         let strain = strain_of_wrench(mesh.rod.body(), s, &wrench, guess);
         Node { s, pose, strain, wrench }
@@ -54,14 +61,14 @@ pub(super) fn describe<B: Elastic, const S: usize>(
     let mut nodes = Vec::with_capacity(mesh.elements() + 1 + state.joints.len());
     let mut joints = state.joints.iter();
     for i in 0..mesh.elements() {
-        nodes.push(node(i, i, 0.0, state.node_pose[i], state.node_wrench[i]));
+        nodes.push(node(i, i, 0, state.node_pose[i], state.node_wrench[i]));
         // a joint has a node on either side
         if let Some(joint) = mesh.joint_at(i + 1).and_then(|_| joints.next()) {
-            nodes.push(node(i + 1, i, 1.0, joint.pose, joint.wrench));
+            nodes.push(node(i + 1, i, 1, joint.pose, joint.wrench));
         }
     }
     let last = mesh.elements();
-    nodes.push(node(last, last - 1, 1.0, state.node_pose[last], state.node_wrench[last]));
+    nodes.push(node(last, last - 1, 1, state.node_pose[last], state.node_wrench[last]));
     let (strain_energy, load_potential) = mesh.energies(state);
     StaticSolution { nodes, stages, strain_energy, load_potential, report }
 }
@@ -100,9 +107,37 @@ pub(super) fn strain_correction<B: Elastic>(
         tangent.column_mut(i).fill(0.0);
         (tangent[(i, i)], residual[i]) = (1.0, -strain.to_array()[i]);
     }
-    let step = match tangent.cholesky() {
-        Some(factor) => factor.solve(&residual),
+    let step = match solve_definite(&tangent, &residual) {
+        Some(step) => step,
         None => tangent.lu().solve(&residual)?,
     };
     Some(Strain::from_vector(&step))
+}
+
+/// Solves K x = b by L D Lᵀ, of the lower triangle; `None` if K is not positive definite.
+fn solve_definite(k: &Matrix6<f64>, b: &Vector6<f64>) -> Option<Vector6<f64>> {
+    let mut l = *k;
+    let mut x = *b;
+    let mut inverse = [0.0; 6];
+    for c in 0..6 {
+        let pivot = l[(c, c)];
+        if !(pivot > f64::MIN_POSITIVE && pivot.is_finite()) {
+            return None;
+        }
+        inverse[c] = 1.0 / pivot;
+        for r in c + 1..6 {
+            let factor = l[(r, c)] * inverse[c];
+            for m in r..6 {
+                l[(m, r)] -= factor * l[(m, c)];
+            }
+            x[r] -= factor * x[c];
+        }
+    }
+    for c in (0..6).rev() {
+        x[c] *= inverse[c];
+        for r in c + 1..6 {
+            x[c] -= l[(r, c)] * inverse[c] * x[r];
+        }
+    }
+    Some(x)
 }

@@ -11,6 +11,7 @@ use crate::load::LoadWrench;
 use crate::material::{Request, Response};
 use crate::rod::element::{ElementState, Kinematics};
 use crate::rod::joint::Fixture;
+use crate::rod::lanes::{self, ELEMENTS, Twists};
 
 /// Everything that follows from the unknowns.
 #[derive(Clone, Debug)]
@@ -62,18 +63,22 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
     /// Poses, responses and loads.
     fn move_forward(&self, unknowns: &Unknowns<S>, into: &mut Configuration<S>) -> Result<()> {
         let (n, body) = (self.elements(), self.rod.body());
+        into.kinematics.resize(n, Kinematics { stage: [Pose::identity(); S], end: Pose::identity() });
         let mut pose = unknowns.base;
         into.node_pose.push(pose);
         // as in the configuration before, which is then overwritten: no need to clear
         into.response.resize(n, [Response::zero(); S]);
-        for (i, element) in unknowns.strains.iter().enumerate() {
-            for k in 0..S {
-                into.response[i][k] = body.respond(self.stage_s(i, k), &element[k], Request::Tangent)?;
+        for i in 0..n {
+            if i % ELEMENTS == 0 {
+                let block = i..n.min(i + ELEMENTS);
+                let (strains, out) = (&unknowns.strains[block.clone()], &mut into.response[block.clone()]);
+                let places = self.stage_places(block).as_flattened();
+                body.respond_many(places, strains.as_flattened(), Request::Tangent, out.as_flattened_mut())?;
+                self.move_block(&unknowns.strains, i, &mut into.kinematics);
             }
-            let motion =
-                Kinematics::constrained(&self.table, &self.twists(i, element), self.h(i), &body.constraint());
+            let motion = &into.kinematics[i];
             if !self.rod.loads().is_empty() {
-                into.loads.push(self.stage_loads(i, &pose, &motion)?);
+                into.loads.push(self.stage_loads(i, &pose, motion)?);
             }
             pose = pose * motion.end;
             if let Some(j) = self.joint_at(i + 1) {
@@ -83,16 +88,35 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
                 pose = pose * joint.corner;
             }
             into.node_pose.push(pose);
-            into.kinematics.push(motion);
         }
         Ok(())
+    }
+
+    /// The kinematics of the elements from `first` on, as many as go into a block.
+    fn move_block(&self, strains: &StageStrains<S>, first: usize, into: &mut [Kinematics<f64, S>]) {
+        let last = self.elements().min(first + ELEMENTS);
+        let constraint = self.rod.body().constraint();
+        if !constraint.is_none() {
+            for i in first..last {
+                let twists = self.twists(i, &strains[i]);
+                into[i] = Kinematics::constrained(&self.table, &twists, self.h(i), &constraint);
+            }
+            return;
+        }
+        let mut twists = Twists::new();
+        for i in first..last {
+            twists.set(i - first, self.h(i), &self.twists(i, &strains[i]));
+        }
+        lanes::kinematics(&self.table, &twists, &mut into[first..last]);
     }
 
     /// Wrenches: backward from the tip by the balance of the elements, or as the unknowns have them.
     fn balance(&self, unknowns: &Unknowns<S>, at_tip: Wrench, into: &mut Configuration<S>) {
         let n = self.elements();
         let independent = !unknowns.wrenches.is_empty();
+        // these are overwritten, so that they need no clearing
         into.node_wrench.resize(n + 1, at_tip);
+        into.node_wrench[n] = at_tip;
         into.stage_wrench.resize(n, [Wrench::zero(); S]);
         into.end_wrench.resize(n, at_tip);
         if independent {
@@ -241,14 +265,10 @@ impl<const S: usize> Default for Configuration<S> {
 }
 
 impl<const S: usize> Configuration<S> {
-    /// Empty, with all memory kept.
+    /// Without what is pushed; the rest is overwritten.
     fn clear(&mut self) {
         self.node_pose.clear();
-        self.node_wrench.clear();
-        self.stage_wrench.clear();
-        self.end_wrench.clear();
         self.defect.clear();
-        self.kinematics.clear();
         self.loads.clear();
         self.joints.clear();
     }

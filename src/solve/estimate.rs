@@ -7,7 +7,7 @@ use super::newton::Outcome;
 use super::report::ErrorEstimate;
 use super::unknowns::StageStrains;
 use crate::body::Elastic;
-use crate::lie::Wrench;
+use crate::lie::{Strain, Wrench};
 
 /// Where the error of a mesh comes from, element by element.
 ///
@@ -18,6 +18,8 @@ use crate::lie::Wrench;
 pub(super) struct Defect {
     /// h δ² of every element, with δ the largest of stretch change and curvature change × L.
     pub(super) shares: Vec<f64>,
+    /// By how much the strain at either end of an element differs from its polynomial there.
+    pub(super) ends: Vec<[Strain; 2]>,
 }
 
 impl Defect {
@@ -27,19 +29,28 @@ impl Defect {
         state: &Configuration<S>,
     ) -> Self {
         let (body, length) = (mesh.rod.body(), mesh.rod.body().length());
-        let share = |i: usize| {
+        let n = mesh.elements();
+        let (mut shares, mut corrections) = (Vec::with_capacity(n), Vec::with_capacity(n));
+        for i in 0..n {
             let ends = [(i, 0.0, &state.node_wrench[i]), (i + 1, 1.0, &state.end_wrench[i])];
             let ends = ends.map(|(node, tau, wrench)| {
                 let guess = mesh.interpolate(&strains[i], tau);
-                match strain_correction(body, mesh.node_s(node), wrench, &guess) {
-                    Some(change) => change.linear.norm().max(change.angular.norm() * length),
-                    None => 1.0,
-                }
+                strain_correction(body, mesh.node_s(node), wrench, &guess)
             });
-            let delta = ends[0].max(ends[1]);
-            mesh.h(i) / length * delta * delta
-        };
-        Self { shares: (0..mesh.elements()).map(share).collect() }
+            let size = |end: &Option<Strain>| match end {
+                Some(change) => change.linear.norm().max(change.angular.norm() * length),
+                None => 1.0,
+            };
+            let delta = size(&ends[0]).max(size(&ends[1]));
+            shares.push(mesh.h(i) / length * delta * delta);
+            corrections.push(ends.map(Option::unwrap_or_default));
+        }
+        Self { shares, ends: corrections }
+    }
+
+    /// What is not known, of so many elements.
+    pub(super) fn none(elements: usize) -> Self {
+        Self { shares: vec![0.0; elements], ends: vec![[Strain::zero(); 2]; elements] }
     }
 
     pub(super) fn total(&self) -> f64 {

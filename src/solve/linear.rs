@@ -13,6 +13,7 @@ use crate::error::{Error, Result};
 use crate::lie::Pose;
 use crate::load::LoadWrench;
 use crate::rod::condense::{Condensed, Transfer};
+use crate::rod::lanes::{self, ELEMENTS, Eliminated, Linearised};
 
 /// By how much a tangent with neutral modes is made stiffer.
 const STIFFER: f64 = 1e-7;
@@ -51,6 +52,11 @@ pub(crate) struct Buffers<const S: usize> {
     /// Unknowns of the state being tried.
     pub(crate) trial: Unknowns<S>,
     spare: Vec<Configuration<S>>,
+    /// [`Sweep::least_stiffness`] of the last step.
+    pub(super) least_stiffness: f64,
+    /// Of the block of elements being condensed.
+    linearised: Linearised,
+    eliminated: Eliminated,
 }
 
 impl<const S: usize> Default for Buffers<S> {
@@ -63,6 +69,9 @@ impl<const S: usize> Default for Buffers<S> {
             neutral: Vec::new(),
             trial: Unknowns::default(),
             spare: Vec::new(),
+            least_stiffness: 0.0,
+            linearised: Linearised::new(),
+            eliminated: Eliminated::new(),
         }
     }
 }
@@ -144,6 +153,7 @@ impl<const S: usize> Buffers<S> {
             let nodes = &mut self.step.nodes;
             self.sweep.solve(elements, &state.node_wrench, &tip, scale, nodes).is_some()
         };
+        self.least_stiffness = if swept { self.sweep.least_stiffness } else { 0.0 };
         if !swept {
             self.solve_with_pivoting(mesh, state, scale)?;
         }
@@ -159,12 +169,19 @@ impl<const S: usize> Buffers<S> {
     ) -> Result<()> {
         let n = mesh.elements();
         self.condensed.resize_with(n.max(self.condensed.len()), Condensed::empty);
+        let in_lanes = state.loads.is_empty() && mesh.rod.body().constraint().is_none();
         let mut joints = state.joints.iter();
         for i in 0..n {
+            if in_lanes && i % ELEMENTS == 0 {
+                self.condense_block(mesh, unknowns, state, i);
+            }
             let element = &mut self.condensed[i];
-            element
-                .fill(&mesh.table, &mesh.element(i, &unknowns.strains, state))
-                .ok_or_else(|| Error::Singular { matrix: "tangent of an element", s: mesh.node_s(i) })?;
+            let end = &state.kinematics[i].end;
+            if !(in_lanes && element.take(&self.eliminated, i % ELEMENTS, end).is_some()) {
+                element
+                    .fill(&mesh.table, &mesh.element(i, &unknowns.strains, state))
+                    .ok_or_else(|| Error::Singular { matrix: "tangent of an element", s: mesh.node_s(i) })?;
+            }
             if let Some(defect) = state.defect.get(i) {
                 element.transfer.wrench += defect.to_vector();
             }
@@ -176,6 +193,23 @@ impl<const S: usize> Buffers<S> {
             }
         }
         Ok(())
+    }
+
+    /// The elements from `first` on, as many as go into a block.
+    fn condense_block<B: Elastic>(
+        &mut self,
+        mesh: &Mesh<'_, B, S>,
+        unknowns: &Unknowns<S>,
+        state: &Configuration<S>,
+        first: usize,
+    ) {
+        let last = mesh.elements().min(first + ELEMENTS);
+        for i in first..last {
+            let twists = mesh.twists(i, &unknowns.strains[i]);
+            let place = i - first;
+            self.linearised.set(place, (mesh.h(i), &twists), &state.response[i], &state.node_wrench[i]);
+        }
+        lanes::condense(&mesh.table, &self.linearised, last - first, &mut self.eliminated);
     }
 
     /// The strains from the nodes, and the size of it all.

@@ -16,6 +16,8 @@ pub(crate) struct Mesh<'a, B, const S: usize> {
     nodes: Vec<f64>,
     /// Node and number of every joint, along the rod.
     joints: Vec<(usize, usize)>,
+    /// s of the stages.
+    places: Vec<[f64; S]>,
     /// ξ* at the stages.
     reference: Vec<[Twist; S]>,
     /// Where a solve starts.
@@ -51,26 +53,27 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
             nodes.push(to);
             from = to;
         }
-        Self::at(rod, nodes)
+        Self::at(rod, nodes, Collocation::gauss())
     }
 
-    fn at(rod: &'a Rod<B>, nodes: Vec<f64>) -> Self {
+    fn at(rod: &'a Rod<B>, nodes: Vec<f64>, table: Collocation<S>) -> Self {
         let joints = rod.joints().iter().enumerate();
         let joints = joints.map(|(j, joint)| (nodes.partition_point(|s| *s < joint.s), j)).collect();
         let base = &rod.base_fixture().support;
         let start = Start { base: base.pose_at(&base.held()), tip: [0.0; 6], joints: Vec::new() };
         let mut mesh = Self {
             rod,
-            table: Collocation::gauss(),
+            table,
             nodes,
             joints,
+            places: Vec::new(),
             reference: Vec::new(),
             start,
             load_factor: 1.0,
         };
-        mesh.reference = (0..mesh.elements())
-            .map(|i| std::array::from_fn(|k| rod.body().reference(mesh.stage_s(i, k)).twist))
-            .collect();
+        mesh.places = (0..mesh.elements()).map(|i| std::array::from_fn(|k| mesh.stage_s(i, k))).collect();
+        let twists = |places: &[f64; S]| places.map(|s| rod.body().reference(s).twist);
+        mesh.reference = mesh.places.iter().map(twists).collect();
         if !mesh.is_cantilever() {
             mesh.start = mesh.placed();
         }
@@ -86,7 +89,7 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
             }
             nodes.push(self.nodes[i + 1]);
         }
-        Self { load_factor: self.load_factor, ..Self::at(self.rod, nodes) }
+        Self { load_factor: self.load_factor, ..Self::at(self.rod, nodes, self.table.clone()) }
     }
 
     /// Whether the base is clamped in the frame of its support and nothing else holds the rod.
@@ -171,6 +174,11 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
         self.nodes[i] + self.table.c[k] * self.h(i)
     }
 
+    /// [`stage_s`](Self::stage_s) of some elements.
+    pub(crate) fn stage_places(&self, elements: std::ops::Range<usize>) -> &[[f64; S]] {
+        &self.places[elements]
+    }
+
     /// ξ = ξ* + Δξ at the stages of element i.
     pub(crate) fn twists(&self, i: usize, strains: &[Strain; S]) -> [Twist; S] {
         std::array::from_fn(|k| self.reference[i][k] + strains[k])
@@ -182,13 +190,28 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
         element.iter().zip(weights).fold(Strain::zero(), |sum, (strain, weight)| sum + *strain * weight)
     }
 
-    /// The strains of this mesh interpolated onto [`refined`](Self::refined) with the same parts.
-    pub(crate) fn prolong(&self, strains: &StageStrains<S>, parts: &[usize]) -> StageStrains<S> {
+    /// The strains of this mesh interpolated onto [`refined`](Self::refined) with the same parts: from the stages, and from the ends of the
+    /// elements where it is known by how much the strains there differ.
+    ///
+    /// The term that puts the ends right vanishes at the stages: Π(τ − c_k) times a linear function.
+    pub(crate) fn prolong(
+        &self,
+        strains: &StageStrains<S>,
+        parts: &[usize],
+        ends: Option<&[[Strain; 2]]>,
+    ) -> StageStrains<S> {
+        let vanishing = |tau: f64| self.table.c.iter().fold(1.0, |product, c| product * (tau - c));
+        let at_ends = [vanishing(0.0), vanishing(1.0)];
         let mut fine = Vec::with_capacity(parts.iter().sum());
-        for (element, &count) in strains.iter().zip(parts) {
+        for (i, (element, &count)) in strains.iter().zip(parts).enumerate() {
             for part in 0..count {
                 fine.push(std::array::from_fn(|k| {
-                    self.interpolate(element, (part as f64 + self.table.c[k]) / count as f64)
+                    let tau = (part as f64 + self.table.c[k]) / count as f64;
+                    let inside = self.interpolate(element, tau);
+                    let Some([first, last]) = ends.map(|ends| ends[i]) else { return inside };
+                    let weight = vanishing(tau);
+                    let [a, b] = [weight * (1.0 - tau) / at_ends[0], weight * tau / at_ends[1]];
+                    inside + first * a + last * b
                 }));
             }
         }

@@ -25,9 +25,12 @@ const ROUNDING_STEP: f64 = 1e-7;
 pub(crate) enum Stop {
     /// After a full step smaller than this.
     Step(f64),
-    /// When the error left is below this: C step², with C from how the steps before fell.
+    /// When the error left is below this: C step², with C from how the steps before fell, or what the residual left makes of it.
     Error(f64),
 }
+
+/// The next step is taken to be at most this many times the residual left × the largest ratio of step to residual seen so far.
+const AMPLIFIED: f64 = 4.0;
 
 /// The constant C of s′ ≈ C s² is at least this: two steps tell it to a factor of a few.
 const LEAST_CONSTANT: f64 = 0.3;
@@ -36,9 +39,12 @@ const LEAST_CONSTANT: f64 = 0.3;
 const FIRST_CONSTANT: f64 = 1.0;
 
 impl Stop {
-    fn reached(&self, step: f64, previous: f64) -> bool {
+    /// `next` is what is expected of the next step.
+    fn reached(&self, step: f64, previous: f64, next: f64) -> bool {
         match *self {
             Self::Step(tolerance) => step <= tolerance,
+            // the residual tells only where it fell as it does once the steps are small
+            Self::Error(tolerance) if step < 0.1 && next < 0.01 * step && next <= tolerance => true,
             Self::Error(tolerance) => {
                 let falling = previous.is_finite() && step < 0.5 * previous;
                 let constant = if falling {
@@ -64,6 +70,8 @@ pub(crate) struct Newton<'o> {
     pub(crate) max_iterations: usize,
     pub(crate) stop: Stop,
     pub(crate) observer: &'o mut dyn FnMut(&Iteration),
+    /// The largest ratio of a step to the residual before it, on all meshes so far; at least 1.
+    pub(crate) amplification: f64,
 }
 
 /// What Newton's method ended with.
@@ -74,6 +82,10 @@ pub(crate) struct Outcome<const S: usize> {
     /// How many iterations were made.
     pub(crate) iterations: usize,
     pub(crate) failure: Option<Reason>,
+    /// [`Sweep::least_stiffness`](super::sweep::Sweep) of the last step, 0 where it is not known.
+    pub(crate) least_stiffness: f64,
+    /// Size of that step.
+    pub(crate) last_step: f64,
 }
 
 impl Newton<'_> {
@@ -85,8 +97,15 @@ impl Newton<'_> {
         buffers: &mut Buffers<S>,
         history: &mut Vec<Iteration>,
     ) -> Outcome<S> {
-        let mut out =
-            Outcome { unknowns: start, state: None, residual: f64::INFINITY, iterations: 0, failure: None };
+        let mut out = Outcome {
+            unknowns: start,
+            state: None,
+            residual: f64::INFINITY,
+            iterations: 0,
+            failure: None,
+            least_stiffness: 0.0,
+            last_step: f64::INFINITY,
+        };
         let mut state = buffers.configuration();
         if let Err(error) = mesh.configure(&out.unknowns, &mut state) {
             out.failure = Some(Reason::Start(error));
@@ -94,9 +113,9 @@ impl Newton<'_> {
         }
         let mut trial = buffers.configuration();
         let mut previous = f64::INFINITY;
+        out.residual = relative_residual(&state, &scale(mesh, &state));
         for iteration in 0..self.max_iterations {
             let scale = scale(mesh, &state);
-            out.residual = relative_residual(&state, &scale);
             let step = match buffers.newton_step(mesh, &out.unknowns, &state, &scale) {
                 Ok(step) => step,
                 Err(error) => {
@@ -115,11 +134,16 @@ impl Newton<'_> {
             std::mem::swap(&mut out.unknowns, &mut buffers.trial);
             std::mem::swap(&mut state, &mut trial);
             out.iterations += 1;
+            (out.least_stiffness, out.last_step) = (buffers.least_stiffness, step.size);
             self.record(mesh.elements(), out.residual, &step, fraction, history);
             let full = fraction == 1.0;
+            if step.size > ROUNDING_STEP {
+                self.amplification = self.amplification.max(step.size / out.residual.max(f64::MIN_POSITIVE));
+            }
+            out.residual = relative_residual(&state, &scale);
+            let next = AMPLIFIED * self.amplification * out.residual;
             let stalled = step.size < ROUNDING_STEP && step.size > 0.5 * previous;
-            if full && (self.stop.reached(step.size, previous) || stalled) {
-                out.residual = relative_residual(&state, &scale);
+            if full && (self.stop.reached(step.size, previous, next) || stalled) {
                 out.state = Some(state);
                 buffers.recycle(trial);
                 return out;

@@ -47,6 +47,7 @@ pub struct PathState {
 }
 
 /// What happens on a path.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PathEventKind {
     /// The load factor has an extremum: beyond it the rod snaps, under a load that cannot give way.
@@ -67,6 +68,7 @@ pub struct PathEvent {
 }
 
 /// Why a walk ended.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub enum PathEnd {
     /// At a bound of the load factor.
@@ -215,7 +217,7 @@ impl<'m, 'r, B: Elastic, const S: usize> Walker<'m, 'r, B, S> {
         if self.mesh.configure(&point.state, &mut configuration).is_ok() {
             report.stability = stability(&self.mesh, &point.state, &configuration, self.buffers, NEUTRAL);
         }
-        let solution = describe(&self.mesh, &point.state.strains, &configuration, report);
+        let solution = describe(&self.mesh, &point.state.strains, &configuration, None, report);
         let (load_factor, slope, arc_length) = (point.factor, point.slope, point.arc_length);
         PathState { load_factor, slope, arc_length, solution }
     }

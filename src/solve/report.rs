@@ -42,6 +42,7 @@ impl ErrorEstimate {
 }
 
 /// What a solve had to do to find its answer, in the order in which it is tried.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Rung {
@@ -58,6 +59,7 @@ pub enum Rung {
 /// Whether an equilibrium would stay.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Stability {
     /// The second variation of the energy under the conditions of the supports.
     Index {

@@ -27,8 +27,8 @@ impl Scale {
 
     /// The size of a wrench in these units.
     pub(crate) fn wrench_size(&self, wrench: &Wrench) -> f64 {
-        let unit = self.wrench();
-        wrench.to_array().iter().zip(unit).fold(0.0, |size, (w, u)| f64::max(size, (w / u).abs()))
+        let (moment, force) = (wrench.moment.amax(), wrench.force.amax());
+        f64::max(moment / (self.force * self.length), force / self.force)
     }
 
     /// The physical displacement and wrench of a node's scaled unknowns.

@@ -247,7 +247,7 @@ impl Statics {
     ) -> Result<StaticSolution, Box<Failure>> {
         let start = Instant::now();
         let stop = Stop::Step(self.tolerance);
-        let newton = Newton { max_iterations: self.max_iterations, stop, observer };
+        let newton = Newton { max_iterations: self.max_iterations, stop, observer, amplification: 1.0 };
         let mut cascade = Cascade::<B, S>::new(rod, newton, buffers, self.accept_unstable);
         let solved = match self.accuracy {
             None => cascade.on_mesh(self.elements.div_ceil(2)),

@@ -18,6 +18,11 @@ const MISFIT: f64 = 1e-7;
 pub(crate) struct Sweep {
     full: Vec<(Matrix6<f64>, Vector6<f64>)>,
     dead: Vec<(Matrix3<f64>, Vector3<f64>)>,
+    /// Of the last sweep under a dead force alone, else 0: no node resists a rotation by less, with the node before it held and the rod
+    /// beyond it free.
+    ///
+    /// Elements that are stable by themselves make a stable rod if this is positive at every node: these are the pivots of the second variation.
+    pub(super) least_stiffness: f64,
 }
 
 /// What closes the chain at the tip: δΛ_N = D ζ_N.
@@ -41,6 +46,7 @@ impl Sweep {
     ) -> Option<()> {
         let rows = scale.wrench().map(|unit| 1.0 / unit);
         nodes.clear();
+        self.least_stiffness = 0.0;
         if tip.alone && is_dead(tip.tangent, &wrenches[elements.len()].force) {
             return self.solve_dead(elements, wrenches, tip.tangent, &rows, nodes);
         }
@@ -77,9 +83,15 @@ impl Sweep {
         let corner: Matrix3<f64> = tip.fixed_view::<3, 3>(0, 0).into();
         self.dead.clear();
         self.dead.resize(elements.len() + 1, (corner, Vector3::zeros()));
+        let mut least = f64::INFINITY;
         for i in (0..elements.len()).rev() {
-            self.dead[i] = step_back_dead(&elements[i].transfer, &self.dead[i + 1], &wrenches[i].force)?;
+            let (relation, stiffness) =
+                step_back_dead(&elements[i].transfer, &self.dead[i + 1], &wrenches[i].force)?;
+            self.dead[i] = relation;
+            // not min, which would drop a NaN
+            least = if stiffness > least { least } else { stiffness };
         }
+        self.least_stiffness = if least > 0.0 { least } else { 0.0 };
         let (mut zeta, mut wrench) = (Vector6::zeros(), Vector6::zeros());
         wrench.fixed_rows_mut::<3>(0).copy_from(&self.dead[0].1);
         let mut misfit = Misfit::default();
@@ -130,15 +142,32 @@ fn is_dead(tangent: &Matrix6<f64>, force: &Vector3<f64>) -> bool {
     tangent.fixed_columns::<3>(3) == Matrix6x3::zeros() && tangent.fixed_view::<3, 3>(3, 0) == hat(force)
 }
 
+/// A lower bound for the eigenvalues of D = M P⁻¹, the stiffness of the node after an element against a rotation; not positive if D is not.
+///
+/// Pᵀ M = Pᵀ D P is definite as D is. λ₁ ≥ 4 det/tr² for three positive eigenvalues.
+#[inline(always)]
+fn stiffness_bound(matrix: &Matrix3<f64>, p: &Matrix3<f64>) -> f64 {
+    let product = p.tr_mul(matrix);
+    let a = (product + product.transpose()) * 0.5;
+    let minor = a[(0, 0)] * a[(1, 1)] - a[(0, 1)] * a[(0, 1)];
+    if !(a[(0, 0)] > 0.0 && minor > 0.0) {
+        return 0.0;
+    }
+    let trace = a.trace();
+    4.0 * a.determinant() / (trace * trace * p.norm_squared())
+}
+
+/// The relation of the node before an element, and the [`stiffness_bound`] of that after it.
+///
 /// (T_mm − S P_wm) δm_i = (S (Rᵀ + P_wn n^) − T_mn n^) w_i + S p_w + s − t_m, with T the moment rows and P the rotation rows of the transfer.
 #[inline]
 fn step_back_dead(
     t: &Transfer,
     (s, c): &(Matrix3<f64>, Vector3<f64>),
     force: &Vector3<f64>,
-) -> Option<(Matrix3<f64>, Vector3<f64>)> {
+) -> Option<((Matrix3<f64>, Vector3<f64>), f64)> {
     let n = hat(force);
-    let p_wm = t.zeta_from_wrench.fixed_view::<3, 3>(0, 0);
+    let p_wm: Matrix3<f64> = t.zeta_from_wrench.fixed_view::<3, 3>(0, 0).into();
     let p_wn = t.zeta_from_wrench.fixed_view::<3, 3>(0, 3);
     let matrix = t.wrench_from_wrench.fixed_view::<3, 3>(0, 0) - s * p_wm;
     let turned = t.zeta_from_zeta.fixed_view::<3, 3>(0, 0) + p_wn * n;
@@ -155,7 +184,8 @@ fn step_back_dead(
     }
     eliminate(&mut left, &mut right)?;
     let relation = Matrix3::from_fn(|r, k| right[r][k]);
-    Some((relation, Vector3::from_fn(|r, _| right[r][3])))
+    let stiffness = stiffness_bound(&matrix, &p_wm);
+    Some(((relation, Vector3::from_fn(|r, _| right[r][3])), stiffness))
 }
 
 /// (T_ΛΛ − S T_ζΛ) δΛ_i = (S T_ζζ − T_Λζ) ζ_i + (S t_ζ + s − t_Λ), rows in units of the rod.

@@ -46,10 +46,15 @@ impl<const S: usize> Unknowns<S> {
         }
     }
 
-    /// These of a mesh on its [refinement](Mesh::refined) with the same parts.
-    pub(crate) fn prolonged<B: Elastic>(&self, mesh: &Mesh<'_, B, S>, parts: &[usize]) -> Self {
+    /// These of a mesh on its [refinement](Mesh::refined) with the same parts; see [`Mesh::prolong`].
+    pub(crate) fn prolonged<B: Elastic>(
+        &self,
+        mesh: &Mesh<'_, B, S>,
+        parts: &[usize],
+        ends: Option<&[[Strain; 2]]>,
+    ) -> Self {
         Self {
-            strains: mesh.prolong(&self.strains, parts),
+            strains: mesh.prolong(&self.strains, parts, ends),
             reactions: self.reactions.clone(),
             wrenches: Vec::new(),
             ..*self
@@ -58,11 +63,11 @@ impl<const S: usize> Unknowns<S> {
 
     /// Puts these plus fraction × the increment into `into`.
     pub(crate) fn moved(&self, step: &Increment<S>, fraction: f64, into: &mut Self) {
-        into.strains.clear();
-        let pairs = self.strains.iter().zip(&step.strains);
-        into.strains.extend(
-            pairs.map(|(element, d)| -> [_; S] { std::array::from_fn(|k| element[k] + d[k] * fraction) }),
-        );
+        into.strains.resize(self.strains.len(), [Strain::zero(); S]);
+        let pairs = self.strains.as_flattened().iter().zip(step.strains.as_flattened());
+        for (into, (strain, d)) in into.strains.as_flattened_mut().iter_mut().zip(pairs) {
+            *into = *strain + *d * fraction;
+        }
         let (zeta, _) = step.nodes[0];
         into.base = if zeta == nalgebra::Vector6::zeros() {
             self.base

@@ -14,7 +14,7 @@ fn wandering(scene: &Scene<'_, Beam>, dynamics: &Dynamics, start: &Start, steps:
     for half in 0..2 {
         for step in 0..steps / 2 {
             stepper.step().unwrap();
-            if step % 7 == 0 {
+            if step % 23 == 0 {
                 let tip = stepper.frame().unwrap().tip().pose.position;
                 largest[half] = largest[half].max((tip - begin).norm());
             }

@@ -1,7 +1,7 @@
 //! U, Ψ, K and Ψ′ point by point with num-dual's own numbers: no lanes, no chain rule by hand, no moments.
 
 use hyperrod::material::{
-    Deformation, Local, Point, PointRates, Points, Reference, Request, Response, Sectional, Station,
+    Local, Point, PointRates, Points, Reference, Request, Response, Sectional, Station,
 };
 use hyperrod::{Scalar, Strain, Twist, Wrench};
 use nalgebra::{Const, Matrix6, U1};
@@ -13,16 +13,24 @@ const LENGTH: [f64; 6] = [0.01, 0.01, 0.01, 1.0, 1.0, 1.0];
 /// Over which lengths a section of these tests may change, m: the scale of Ψ′ is Ψ over it.
 const CHANGE: f64 = 0.1;
 
-/// A density in J/m³ of strain and point, per dA ds.
+type Hessian = Dual2SVec64<7>;
+type Mixed = HyperDualSVec64<6, 7>;
+
+/// A density in J/m³ of strain and point, per dA ds, in num-dual's numbers: an object, so that what is made of it is compiled once.
 pub trait Density {
-    fn density<D: Scalar>(&self, strain: &Strain<D>, at: &Point<D>, station: &Station) -> D;
+    fn hessian(&self, strain: &Strain<Hessian>, at: &Point<Hessian>, station: &Station) -> Hessian;
+    fn mixed(&self, strain: &Strain<Mixed>, at: &Point<Mixed>, station: &Station) -> Mixed;
 }
 
 /// Any law, on a straight reference.
 pub struct Straight<'a, M>(pub &'a M);
 
 impl<M: Sectional> Density for Straight<'_, M> {
-    fn density<D: Scalar>(&self, strain: &Strain<D>, at: &Point<D>, _: &Station) -> D {
+    fn hessian(&self, strain: &Strain<Hessian>, at: &Point<Hessian>, _: &Station) -> Hessian {
+        self.0.energy_density(strain, at)
+    }
+
+    fn mixed(&self, strain: &Strain<Mixed>, at: &Point<Mixed>, _: &Station) -> Mixed {
         self.0.energy_density(strain, at)
     }
 }
@@ -31,13 +39,23 @@ impl<M: Sectional> Density for Straight<'_, M> {
 pub struct Curved<'a, M>(pub &'a M);
 
 impl<M: Local> Density for Curved<'_, M> {
-    fn density<D: Scalar>(&self, strain: &Strain<D>, at: &Point<D>, station: &Station) -> D {
-        let (xi, rate) = (station.reference.twist.to_array(), station.reference.rate.to_array());
-        let along = |i: usize| (at.s - station.s) * rate[i] + xi[i];
-        let j = along(5) + along(0) * at.y - along(1) * at.x;
-        let gamma = Deformation::of(strain, at).gamma().map(|g| g / j);
-        self.0.energy_density(&Deformation::from_gamma(gamma), at) * j
+    fn hessian(&self, strain: &Strain<Hessian>, at: &Point<Hessian>, station: &Station) -> Hessian {
+        let (j, over_j) = divided(strain, at, station);
+        Straight(self.0).hessian(&over_j, at, station) * j
     }
+
+    fn mixed(&self, strain: &Strain<Mixed>, at: &Point<Mixed>, station: &Station) -> Mixed {
+        let (j, over_j) = divided(strain, at, station);
+        Straight(self.0).mixed(&over_j, at, station) * j
+    }
+}
+
+/// j, and the strain divided by it, whose γ at the point is γ/j.
+fn divided<D: Scalar>(strain: &Strain<D>, at: &Point<D>, station: &Station) -> (D, Strain<D>) {
+    let (xi, rate) = (station.reference.twist.to_array(), station.reference.rate.to_array());
+    let along = |i: usize| (at.s - station.s) * rate[i] + xi[i];
+    let j = along(5) + along(0) * at.y - along(1) * at.x;
+    (j, Strain::from_array(strain.to_array().map(|x| x / j)))
 }
 
 /// What num-dual gives, and the sums of the magnitudes of what the points contribute, lengths taken out.
@@ -49,21 +67,23 @@ pub struct Expected {
 }
 
 /// The sums over the points, each differentiated in (Δξ, s) as a whole: w(s) u(Δξ, x(s), y(s), s).
-pub fn expected(density: &impl Density, points: &Points, station: &Station, strain: &Strain) -> Expected {
+pub fn expected(density: &dyn Density, points: &Points, station: &Station, strain: &Strain) -> Expected {
     let mut response = Response::zero();
     let (mut energy, mut wrench, mut tangent) = (0.0, [0.0; 6], Matrix6::zeros());
     for q in 0..points.len() {
-        let variables: [Dual2SVec64<7>; 7] =
-            std::array::from_fn(|i| Dual2SVec64::from_re(component(strain, station, i)).derivative(i));
-        let u = at_point(density, points, q, station, variables);
+        let variables: [Hessian; 7] =
+            std::array::from_fn(|i| Hessian::from_re(component(strain, station, i)).derivative(i));
+        let (strain_there, point, weight) = at_point(points, q, station, variables);
+        let u = density.hessian(&strain_there, &point, station) * weight;
         let gradient = u.v1.unwrap_generic(U1, Const::<7>);
         let hessian = u.v2.unwrap_generic(Const::<7>, Const::<7>);
         // the mixed derivatives once more with numbers that keep two sets of variables apart
-        let mixed: [HyperDualSVec64<6, 7>; 7] = std::array::from_fn(|i| {
-            let x = HyperDualSVec64::from_re(component(strain, station, i)).derivative2(i);
+        let mixed: [Mixed; 7] = std::array::from_fn(|i| {
+            let x = Mixed::from_re(component(strain, station, i)).derivative2(i);
             if i < 6 { x.derivative1(i) } else { x }
         });
-        let mixed = at_point(density, points, q, station, mixed).eps1eps2;
+        let (strain_there, point, weight) = at_point(points, q, station, mixed);
+        let mixed = (density.mixed(&strain_there, &point, station) * weight).eps1eps2;
         let mixed = mixed.unwrap_generic(Const::<6>, Const::<7>);
         let largest = hessian.amax() * (1.0 + CHANGE);
         for i in 0..6 {
@@ -91,15 +111,15 @@ fn component(strain: &Strain, station: &Station, i: usize) -> f64 {
     if i < 6 { strain.to_array()[i] } else { station.s }
 }
 
-fn at_point<D: Scalar>(density: &impl Density, points: &Points, q: usize, station: &Station, v: [D; 7]) -> D {
+/// Strain, point and weight as they depend on (Δξ, s).
+fn at_point<D: Scalar>(points: &Points, q: usize, station: &Station, v: [D; 7]) -> (Strain<D>, Point<D>, D) {
     let step = v[6] - station.s;
     let moving = |value: f64, rate: fn(&PointRates) -> &Vec<f64>| {
         step * points.rates.as_ref().map_or(0.0, |rates| rate(rates)[q]) + value
     };
     let (x, y) = (moving(points.x[q], |r| &r.x), moving(points.y[q], |r| &r.y));
     let strain = Strain::from_array([v[0], v[1], v[2], v[3], v[4], v[5]]);
-    let u = density.density(&strain, &Point { x, y, s: v[6] }, station);
-    u * moving(points.weight[q], |r| &r.weight)
+    (strain, Point { x, y, s: v[6] }, moving(points.weight[q], |r| &r.weight))
 }
 
 impl Expected {

@@ -133,7 +133,7 @@ fn stresses_at_points_carry_the_wrench_and_leave_the_sides_free() {
     let strain = [0.2, -0.1, 0.4, 0.1, 0.05, 0.15];
     let psi = respond(&section, strain).wrench.to_array();
     let deformed = section.deformed(&at_rest(), &Strain::from_array(strain)).unwrap();
-    // an independent quadrature, a tensor one of 40 × 40 in radius and angle (midpoint in angle, Simpson-free: Gauss in radius)
+    // an independent quadrature: Gauss in the radius, 40 equal angles
     let mut sum = [0.0; 6];
     let (radii, weights): (Vec<f64>, Vec<f64>) = {
         let rule = hyperrod::quadrature::gauss_legendre(12).unwrap();

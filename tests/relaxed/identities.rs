@@ -90,6 +90,11 @@ fn the_rate_of_a_section_that_tapers_turns_and_shifts_is_the_derivative_along_s(
     let shape = Ellipse::new(taper, 0.6).rotated(|s: Dual64| s * 0.8).shifted(|s: Dual64| s * s * 0.2, 0.1);
     let section = Relaxed::new(shape, law).unwrap().with_warping(Warping { in_plane: 3, axial: 2 }).unwrap();
     check_rate(&section, Station::straight);
+    assert_eq!(
+        section.mode_count(),
+        3 + 2 * 7 + 3,
+        "three uniform ones, seven functions twice in the plane, three axial ones"
+    );
     let tube = Annulus::new(0.4, Linear { from: 1.0, to: 0.8, length: 1.0 });
     let section = Relaxed::new(tube, law).unwrap().with_warping(Warping { in_plane: 2, axial: 2 }).unwrap();
     check_rate(&section, Station::straight);

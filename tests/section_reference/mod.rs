@@ -126,8 +126,8 @@ impl Group {
         }
     }
 
-    fn compare(&self, law: &Result<impl Sectional, Error>, points: &Points) -> Vec<(&Case, Errors)> {
-        let law = law.as_ref().unwrap_or_else(|error| panic!("{}: {error}", self.law));
+    fn compare<L: Sectional>(&self, law: &Result<L, Error>, points: &Points) -> Vec<(&Case, Errors)> {
+        let law: &dyn Law = law.as_ref().unwrap_or_else(|error| panic!("{}: {error}", self.law));
         self.cases.iter().map(|case| (case, errors(law, points, case))).collect()
     }
 }
@@ -152,7 +152,18 @@ pub struct Errors {
     pub k: Option<f64>,
 }
 
-fn errors(law: &impl Sectional, points: &Points, case: &Case) -> Errors {
+/// A law and its energy density with a full Hessian: an object, so that what is done with it is compiled once.
+trait Law: Material {
+    fn hessian(&self, strain: &Strain<Dual2SVec64<6>>, at: &Point) -> Dual2SVec64<6>;
+}
+
+impl<L: Sectional> Law for L {
+    fn hessian(&self, strain: &Strain<Dual2SVec64<6>>, at: &Point) -> Dual2SVec64<6> {
+        self.energy_density(strain, &at.cast())
+    }
+}
+
+fn errors(law: &dyn Law, points: &Points, case: &Case) -> Errors {
     let response = law
         .integrate(points, &Station::straight(0.0), &case.strain, Request::Tangent)
         .unwrap_or_else(|error| panic!("{}: {error}", case.kind));
@@ -183,13 +194,13 @@ fn relative(error: f64, scale: f64) -> f64 {
     if error == 0.0 { 0.0 } else { error.abs() / scale }
 }
 
-fn absolute_integrals(law: &impl Sectional, points: &Points, strain: &Strain) -> ([f64; 6], [[f64; 6]; 6]) {
+fn absolute_integrals(law: &dyn Law, points: &Points, strain: &Strain) -> ([f64; 6], [[f64; 6]; 6]) {
     let (mut psi, mut k) = ([0.0; 6], [[0.0; 6]; 6]);
     let xi = strain.to_array();
     let xi = Strain::from_array(std::array::from_fn(|i| Dual2SVec64::<6>::from_re(xi[i]).derivative(i)));
     for q in 0..points.len() {
         let at = Point { x: points.x[q], y: points.y[q], s: 0.0 };
-        let u = law.energy_density(&xi, &at.cast());
+        let u = law.hessian(&xi, &at);
         let gradient = u.v1.unwrap_generic(nalgebra::U1, nalgebra::U6);
         let hessian = u.v2.unwrap_generic(nalgebra::U6, nalgebra::U6);
         for i in 0..6 {

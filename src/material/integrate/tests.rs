@@ -1,54 +1,14 @@
 //! The same sums on every kind of lane the machine has.
 #![allow(clippy::unwrap_used)] // a test that cannot go on should panic
 
-use std::marker::PhantomData;
-
 use super::*;
+use crate::lie::Strain;
 use crate::lie::Twist;
 use crate::material::{
-    Gent, HolzapfelGasserOgden, LinearElastic, MooneyRivlin, NeoHookean, Ogden, PointRates, ReferencePressure,
+    Gent, HolzapfelGasserOgden, LinearElastic, Material, MooneyRivlin, NeoHookean, Ogden, PointRates,
+    Reference, ReferencePressure, Response,
 };
-use crate::scalar::lane::run_on_each;
-
-/// A local law on one site, as a kernel that gives its response and can be run again.
-struct LocalOnce<'a, M, O>(&'a M, Site<'a>, PhantomData<O>);
-
-impl<M, O> Clone for LocalOnce<'_, M, O> {
-    fn clone(&self) -> Self {
-        Self(self.0, self.1, PhantomData)
-    }
-}
-
-impl<M: Local, O: Level> Kernel for LocalOnce<'_, M, O> {
-    type Output = Response;
-
-    #[inline(always)]
-    fn run<L: Lane>(self) -> Response {
-        let mut out = Response::zero();
-        LocalKernel { law: self.0, site: self.1, out: &mut out, level: PhantomData::<O> }.run::<L>();
-        out
-    }
-}
-
-/// A section-level law on one site, likewise.
-struct SectionalOnce<'a, M>(&'a M, Site<'a>, Request);
-
-impl<M> Clone for SectionalOnce<'_, M> {
-    fn clone(&self) -> Self {
-        Self(self.0, self.1, self.2)
-    }
-}
-
-impl<M: Sectional> Kernel for SectionalOnce<'_, M> {
-    type Output = Response;
-
-    #[inline(always)]
-    fn run<L: Lane>(self) -> Response {
-        let mut out = Response::zero();
-        SectionalKernel { law: self.0, site: self.1, request: self.2, out: &mut out }.run::<L>();
-        out
-    }
-}
+use crate::scalar::lane::with_each;
 
 /// Points without symmetry that move, with positive weights.
 fn points(count: usize) -> Points {
@@ -94,15 +54,15 @@ fn difference(a: &Response, b: &Response) -> f64 {
         .max(ratio((a.energy - b.energy).abs(), b.energy.abs()))
 }
 
-/// All answers of a kernel, by lane; repeated, and on another thread, to the bit.
-fn answers<K: Kernel<Output = Response> + Clone + Sync>(kernel: K) -> Vec<(&'static str, Response)> {
+/// All answers to one request, by kind of lane; repeated, and on another thread, to the bit.
+fn answers(law: &dyn Material, site: Site<'_>, request: Request) -> Vec<(&'static str, Response)> {
     let once = || {
         let mut answers = Vec::new();
-        run_on_each(&kernel, |lane, response| answers.push((lane, response)));
+        let respond = || law.integrate(site.points, site.at, site.strain, request).unwrap();
+        with_each(|lane| answers.push((lane, respond())));
         answers
     };
     let first = once();
-    assert!(first.len() >= 2);
     let bits = |answers: &[(&'static str, Response)]| {
         let numbers = answers.iter().flat_map(|(_, r)| {
             let six = r.wrench.to_array().into_iter().chain(r.wrench_rate.to_array());
@@ -111,37 +71,47 @@ fn answers<K: Kernel<Output = Response> + Clone + Sync>(kernel: K) -> Vec<(&'sta
         numbers.map(f64::to_bits).collect::<Vec<u64>>()
     };
     assert_eq!(bits(&once()), bits(&first), "repeated");
-    let elsewhere = std::thread::scope(|scope| {
-        let threads: Vec<_> = (0..2).map(|_| scope.spawn(once)).collect();
-        threads.into_iter().map(|t| t.join().unwrap()).collect::<Vec<_>>()
-    });
-    elsewhere.iter().for_each(|answers| assert_eq!(bits(answers), bits(&first), "on another thread"));
+    let elsewhere = std::thread::scope(|scope| scope.spawn(once).join().unwrap());
+    assert_eq!(bits(&elsewhere), bits(&first), "on another thread");
     first
 }
 
 /// Some tens of roundings a point of the size of what is summed, over up to 40 points whose parts partly cancel.
 const ROUNDING: f64 = 1e-14;
 
-fn agree(name: &str, all: &[(&'static str, Response)]) {
-    let (_, expected) = &all[0];
-    assert!(expected.is_finite() && expected.energy != 0.0, "{name}: nothing to compare");
-    for (lane, answer) in &all[1..] {
-        let error = difference(answer, expected);
-        assert!(error < ROUNDING, "{name} on {lane} lanes: {error:.1e}");
+/// The sum of the same law over one point after another: blocks with one point in every lane.
+fn point_by_point(law: &dyn Material, site: Site<'_>, request: Request) -> Response {
+    let mut sum = Response::zero();
+    let Points { x, y, weight, rates } = site.points;
+    for q in 0..site.points.len() {
+        let rates = rates.as_ref().map(|r| PointRates {
+            x: vec![r.x[q]],
+            y: vec![r.y[q]],
+            weight: vec![r.weight[q]],
+        });
+        let one = Points { x: vec![x[q]], y: vec![y[q]], weight: vec![weight[q]], rates };
+        sum += law.integrate(&one, site.at, site.strain, request).unwrap();
     }
+    sum
 }
 
-fn local_law<M: Local>(name: &str, law: M) {
-    for count in [1, 3, 8, 17, 40] {
+const REQUESTS: [Request; 4] = [Request::Energy, Request::Wrench, Request::Tangent, Request::Rate];
+
+fn agree(name: &str, law: &dyn Material, at: &Station) {
+    for count in [1, 3, 8, 17, 40, 64, 65, 150] {
         let points = points(count);
-        for at in &stations() {
-            for strain in &strains() {
+        for strain in &strains() {
+            for request in REQUESTS {
                 let site = Site { points: &points, at, strain };
-                let law = &law;
-                agree(name, &answers(LocalOnce(law, site, PhantomData::<Energy>)));
-                agree(name, &answers(LocalOnce(law, site, PhantomData::<Wrench>)));
-                agree(name, &answers(LocalOnce(law, site, PhantomData::<Tangent>)));
-                agree(name, &answers(LocalOnce(law, site, PhantomData::<Rate>)));
+                let expected = point_by_point(law, site, request);
+                assert!(expected.is_finite() && expected.energy != 0.0, "{name}: nothing to compare");
+                for (lane, answer) in answers(law, site, request) {
+                    let error = difference(&answer, &expected);
+                    assert!(
+                        error < ROUNDING,
+                        "{name}, {count} points, {request:?} on {lane} lanes: {error:.1e}"
+                    );
+                }
             }
         }
     }
@@ -149,25 +119,40 @@ fn local_law<M: Local>(name: &str, law: M) {
 
 #[test]
 fn local_laws_answer_alike_on_every_kind_of_lane_and_to_the_bit_when_repeated() {
-    local_law("Mooney-Rivlin", ReferencePressure(MooneyRivlin::new(120e3, 40e3).unwrap()));
-    local_law("neo-Hookean", NeoHookean::new(170e3, 400e3).unwrap());
-    local_law("Gent", Gent::new(170e3, 400e3, 30.0).unwrap());
-    local_law("Ogden", Ogden::new(&[(100e3, 1.3), (-40e3, -2.0)], 4e5).unwrap());
-    // branches: parts of the section are slack
-    local_law("artery", HolzapfelGasserOgden::artery([170e3, 500e3], [80e3, 1.2], 0.5).unwrap());
+    // the last one has branches: parts of the section are slack
+    let laws: [(&str, &dyn Material); 5] = [
+        ("Mooney-Rivlin", &ReferencePressure(MooneyRivlin::new(120e3, 40e3).unwrap())),
+        ("neo-Hookean", &NeoHookean::new(170e3, 400e3).unwrap()),
+        ("Gent", &Gent::new(170e3, 400e3, 30.0).unwrap()),
+        ("Ogden", &Ogden::new(&[(100e3, 1.3), (-40e3, -2.0)], 4e5).unwrap()),
+        ("artery", &HolzapfelGasserOgden::artery([170e3, 500e3], [80e3, 1.2], 0.5).unwrap()),
+    ];
+    for (name, law) in laws {
+        for at in &stations() {
+            agree(name, law, at);
+        }
+    }
 }
 
 #[test]
 fn sectional_laws_answer_alike_on_every_kind_of_lane_and_to_the_bit_when_repeated() {
-    let law = &LinearElastic::new(1e6, 3e5).unwrap();
-    for count in [1, 5, 17] {
-        let points = points(count);
-        for strain in &strains() {
-            let at = &stations()[0];
-            for request in [Request::Energy, Request::Wrench, Request::Tangent, Request::Rate] {
-                let site = Site { points: &points, at, strain };
-                agree("linear elastic", &answers(SectionalOnce(law, site, request)));
+    agree("linear elastic", &LinearElastic::new(1e6, 3e5).unwrap(), &stations()[0]);
+}
+
+#[test]
+fn a_batch_answers_alike_on_every_kind_of_lane() {
+    let law = HolzapfelGasserOgden::artery([170e3, 500e3], [80e3, 1.2], 0.5).unwrap();
+    let points = Points { rates: None, ..points(19) };
+    let sites: Vec<_> = (0..19).map(|k| (stations()[0], strains()[k % 3])).collect();
+    for request in REQUESTS {
+        with_each(|lane| {
+            let mut out = vec![Response::zero(); sites.len()];
+            law.integrate_many(&points, &sites, request, &mut out).unwrap();
+            for ((at, strain), answer) in sites.iter().zip(&out) {
+                let alone = law.integrate(&points, at, strain, request).unwrap();
+                let error = difference(answer, &alone);
+                assert!(error < ROUNDING, "{request:?} on {lane} lanes: {error:.1e}");
             }
-        }
+        });
     }
 }

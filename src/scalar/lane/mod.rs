@@ -86,6 +86,14 @@ pub trait Lane:
         (0..Self::LANES).fold(0.0, |sum, i| sum + self.lane(i))
     }
 
+    /// The [`sum`](Self::sum) over the lanes of each of eight, in an order of its own that is fixed as well.
+    #[inline(always)]
+    fn sum_each(values: &[Self; MAX_LANES], out: &mut [f64; MAX_LANES]) {
+        for i in 0..MAX_LANES {
+            out[i] = values[i].sum();
+        }
+    }
+
     /// The smallest number; which one, if any is NaN, is not said.
     #[inline(always)]
     fn min_lane(self) -> f64 {
@@ -100,14 +108,6 @@ pub trait Lane:
     #[inline(always)]
     fn spread(self, i: usize) -> Self {
         Self::splat(self.lane(i))
-    }
-
-    /// The number of lane `i` in lane 0, zero in the others.
-    #[inline(always)]
-    fn isolate(self, i: usize) -> Self {
-        let mut values = [0.0; MAX_LANES];
-        values[0] = self.lane(i);
-        Self::load(&values)
     }
 
     /// A function of each lane on its own: what has no vector form.
@@ -299,6 +299,15 @@ pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     return kernel.run::<Portable>();
 }
 
+/// As [`dispatch`], for a kernel that has use for no more than four lanes; the same to the bit, faster where the registers are wider.
+#[inline]
+pub(crate) fn dispatch_few<K: Kernel>(kernel: K) -> K::Output {
+    #[cfg(target_arch = "x86_64")]
+    return x86::dispatch_few(kernel);
+    #[cfg(not(target_arch = "x86_64"))]
+    return dispatch(kernel);
+}
+
 /// Runs a kernel on every kind of lane this machine has, by name.
 #[cfg(test)]
 pub(crate) fn run_on_each<K: Kernel + Clone>(kernel: &K, mut visit: impl FnMut(&'static str, K::Output)) {
@@ -306,6 +315,23 @@ pub(crate) fn run_on_each<K: Kernel + Clone>(kernel: &K, mut visit: impl FnMut(&
     visit("Portable", kernel.clone().run::<Portable>());
     #[cfg(target_arch = "x86_64")]
     x86::run_on_each(kernel, visit);
+}
+
+/// Does something with [`dispatch`] made to take each kind of lane this machine has, by name.
+#[cfg(test)]
+pub(crate) fn with_each(mut act: impl FnMut(&'static str)) {
+    for kind in ["Portable", "AVX2", "AVX-512"] {
+        #[cfg(target_arch = "x86_64")]
+        if x86::has(kind) {
+            x86::FORCED.set(Some(kind));
+            act(kind);
+            x86::FORCED.set(None);
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        if kind == "Portable" {
+            act(kind);
+        }
+    }
 }
 
 #[cfg(test)]

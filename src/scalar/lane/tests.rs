@@ -220,6 +220,10 @@ impl Kernel for Basic {
         let (three, yes, no) = (L::splat(3.0), L::splat(1.0), L::splat(2.0));
         let finite = |a: f64, _: f64| if a < INF { a } else { 2.0 };
         let below = a.select_lt(L::splat(INF), a, no);
+        let mut stored = [7.0; 10];
+        a.store(&mut stored[1..]);
+        let mut sums = [NAN; MAX_LANES];
+        L::sum_each(&std::array::from_fn(|k| L::load(&integers(k))), &mut sums);
         vec![
             ("load", each(a), scalar(&|a, _| a)),
             ("splat", each(three), scalar(&|_, _| 3.0)),
@@ -233,14 +237,24 @@ impl Kernel for Basic {
             ("select_lt", each(a.select_lt(b, yes, no)), scalar(&|a, b| if a < b { 1.0 } else { 2.0 })),
             ("map", each(a.map(f64::sin)), scalar(&|a, _| a.sin())),
             ("zip_map", each(a.zip_map(b, f64::atan2)), scalar(&f64::atan2)),
+            ("store", stored[1..=L::LANES].to_vec(), scalar(&|a, _| a)),
+            ("store, others", [&stored[..1], &stored[L::LANES + 1..]].concat(), vec![7.0; 10 - L::LANES]),
             ("spread", each(a.spread(L::LANES - 1)), scalar(&|_, _| self.a[L::LANES - 1])),
-            ("isolate", each(b.isolate(L::LANES - 1))[..1].to_vec(), vec![self.b[L::LANES - 1]]),
-            ("isolate, others", each(b.isolate(0))[1..].to_vec(), vec![0.0; L::LANES - 1]),
+            ("sum_each", sums.to_vec(), (0..MAX_LANES).map(|k| sum_of_integers(k, L::LANES)).collect()),
             // NaN and ∞ replaced: with NaN the smallest is not defined
             ("min_lane", vec![below.min_lane()], vec![scalar(&finite).into_iter().fold(INF, f64::min)]),
             ("min", each(below.min(three)), scalar(&|a, b| finite(a, b).min(3.0))),
         ]
     }
+}
+
+/// Small integers, which add up exactly in any order; no two lanes of no two alike.
+fn integers(k: usize) -> [f64; MAX_LANES] {
+    std::array::from_fn(|i| f64::from(1_u32 << i) + 1000.0 * k as f64)
+}
+
+fn sum_of_integers(k: usize, lanes: usize) -> f64 {
+    integers(k)[..lanes].iter().sum()
 }
 
 #[test]

@@ -9,7 +9,7 @@ use std::fmt;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::portable::{HALF_SQRT_2_BITS, MANTISSA};
-use super::{Kernel, Lane, Portable};
+use super::{Kernel, Lane, MAX_LANES, Portable};
 
 /// Four numbers in an AVX register.
 #[derive(Clone, Copy)]
@@ -21,6 +21,13 @@ struct Avx512(__m512d);
 
 #[inline]
 pub(super) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+    #[cfg(test)]
+    match FORCED.get() {
+        Some("Portable") => return run_portable(kernel),
+        // SAFETY: forced for tests, once `has` was asked.
+        Some("AVX2") => return unsafe { run_avx2(kernel) },
+        _ => {}
+    }
     if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
         // SAFETY: the features were just detected.
         return unsafe { run_avx512(kernel) };
@@ -30,6 +37,33 @@ pub(super) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
         return unsafe { run_avx2(kernel) };
     }
     run_portable(kernel)
+}
+
+/// As [`dispatch`], on registers of half the width: what fills no more than those is done in half the time on them.
+#[inline]
+pub(super) fn dispatch_few<K: Kernel>(kernel: K) -> K::Output {
+    let few = is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq");
+    if few && is_x86_feature_detected!("avx512vl") {
+        // SAFETY: the features were just detected.
+        return unsafe { run_half_avx512(kernel) };
+    }
+    dispatch(kernel)
+}
+
+#[cfg(test)]
+thread_local! {
+    /// The kind of lane that tests make [`dispatch`] take; the widest if none.
+    pub(super) static FORCED: std::cell::Cell<Option<&'static str>> = const { std::cell::Cell::new(None) };
+}
+
+/// Whether this machine has a kind of lane.
+#[cfg(test)]
+pub(super) fn has(kind: &str) -> bool {
+    match kind {
+        "AVX-512" => is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq"),
+        "AVX2" => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
+        _ => true,
+    }
 }
 
 /// Kept out of line: it would only be in the way of the paths that are taken.
@@ -54,6 +88,12 @@ pub(super) fn run_on_each<K: Kernel + Clone>(kernel: &K, mut visit: impl FnMut(&
 #[target_feature(enable = "avx512f,avx512dq,fma")]
 fn run_avx512<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Avx512>()
+}
+
+/// [`Avx2`], with twice the registers.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+fn run_half_avx512<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Avx2>()
 }
 
 #[target_feature(enable = "avx2,fma")]
@@ -118,6 +158,33 @@ operators!(
 const TWO_52_BITS: i64 = 0x4330_0000_0000_0000;
 const TWO_52: f64 = 4503599627370496.0;
 
+/// The sums over the lanes of four registers.
+#[inline(always)]
+fn sums_of_four(a: __m256d, b: __m256d, c: __m256d, d: __m256d) -> __m256d {
+    // SAFETY: see the module; called with numbers of `Avx2` alone. Neighbours first, then halves.
+    unsafe {
+        let (ab, cd) = (_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d));
+        _mm256_add_pd(_mm256_permute2f128_pd::<0x20>(ab, cd), _mm256_permute2f128_pd::<0x31>(ab, cd))
+    }
+}
+
+/// In each quarter, the sum of a's pair and that of b's.
+#[inline(always)]
+fn pairs(a: Avx512, b: Avx512) -> Avx512 {
+    // SAFETY: see the module.
+    unsafe { Avx512(_mm512_add_pd(_mm512_unpacklo_pd(a.0, b.0), _mm512_unpackhi_pd(a.0, b.0))) }
+}
+
+/// The sums of neighbouring quarters, a's and then b's.
+#[inline(always)]
+fn quarters(a: Avx512, b: Avx512) -> Avx512 {
+    // SAFETY: see the module.
+    unsafe {
+        let even = _mm512_shuffle_f64x2::<0b10_00_10_00>(a.0, b.0);
+        Avx512(_mm512_add_pd(even, _mm512_shuffle_f64x2::<0b11_01_11_01>(a.0, b.0)))
+    }
+}
+
 impl Lane for Avx2 {
     const LANES: usize = 4;
 
@@ -131,6 +198,12 @@ impl Lane for Avx2 {
         assert!(slice.len() >= Self::LANES);
         // SAFETY: the slice has four numbers; unaligned loads are allowed.
         unsafe { Self(_mm256_loadu_pd(slice.as_ptr())) }
+    }
+    #[inline(always)]
+    fn sum_each(values: &[Self; MAX_LANES], out: &mut [f64; MAX_LANES]) {
+        let [a, b, c, d, e, f, g, h] = *values;
+        Self(sums_of_four(a.0, b.0, c.0, d.0)).store(&mut out[..4]);
+        Self(sums_of_four(e.0, f.0, g.0, h.0)).store(&mut out[4..]);
     }
     #[inline(always)]
     fn lane(self, i: usize) -> f64 {
@@ -217,6 +290,13 @@ impl Lane for Avx512 {
         let mask = (1_u8 << slice.len()) - 1;
         // SAFETY: see the module; only the lanes of the mask are read, and the slice has those.
         unsafe { Self(_mm512_mask_loadu_pd(_mm512_set1_pd(fill), mask, slice.as_ptr())) }
+    }
+    #[inline(always)]
+    fn sum_each(values: &[Self; MAX_LANES], out: &mut [f64; MAX_LANES]) {
+        let [a, b, c, d, e, f, g, h] = *values;
+        let first = quarters(pairs(a, b), pairs(c, d));
+        let second = quarters(pairs(e, f), pairs(g, h));
+        quarters(first, second).store(out);
     }
     #[inline(always)]
     fn lane(self, i: usize) -> f64 {

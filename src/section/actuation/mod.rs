@@ -23,7 +23,7 @@ use differentiate::Actuation;
 /// What acts along a rod by an energy per length of its whole strain twist ξ, J/m.
 ///
 /// ```math
-/// \Psi \mathrel{+}= \frac{\partial U}{\partial \xi}, \qquad
+/// \Psi \to \Psi + \frac{\partial U}{\partial \xi}, \qquad
 /// \bar A = -\frac{\partial^2 U}{\partial \xi^2}, \qquad
 /// \bar B = \mathrm{ad}_\xi^{\mathsf T}\,\frac{\partial U}{\partial \xi} - \frac{\partial^2 U}{\partial s\,\partial \xi}
 /// ```

@@ -56,6 +56,11 @@ const RANGE_DEGREE: usize = 32;
 /// # Errors
 /// If the shape is not admissible, or the material not even at rest.
 pub fn check<S: Shape, M: Material>(shape: &S, material: &M, options: &CheckOptions) -> Result<CheckReport> {
+    report(shape, material, options)
+}
+
+/// As [`check`], compiled once for all laws.
+fn report(shape: &dyn Shape, material: &dyn Material, options: &CheckOptions) -> Result<CheckReport> {
     let degree = options.degree.or(material.polynomial_degree()).unwrap_or(12).max(2);
     let probe = |degree| Probe::new(shape, material, options.s, degree);
     let chosen = probe(degree)?;
@@ -85,16 +90,16 @@ pub fn check<S: Shape, M: Material>(shape: &S, material: &M, options: &CheckOpti
 }
 
 /// A material over the points of one section, with the length that makes moments and forces comparable.
-struct Probe<'a, M> {
-    material: &'a M,
+struct Probe<'a> {
+    material: &'a dyn Material,
     points: Points,
     at: Station,
     /// Distance of the outermost point from the axis, m.
     length: f64,
 }
 
-impl<'a, M: Material> Probe<'a, M> {
-    fn new(shape: &impl Shape, material: &'a M, s: f64, degree: usize) -> Result<Self> {
+impl<'a> Probe<'a> {
+    fn new(shape: &dyn Shape, material: &'a dyn Material, s: f64, degree: usize) -> Result<Self> {
         let points = shape.place(&shape.rule(degree)?, s)?;
         let radii = points.x.iter().zip(&points.y).map(|(x, y)| x.hypot(*y));
         let length = radii.fold(f64::MIN_POSITIVE, f64::max);

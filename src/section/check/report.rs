@@ -70,6 +70,7 @@ pub struct AxisRange {
 }
 
 /// Where a range ends; strains of bending and twist are those at the outermost quadrature point.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 pub enum Bound {
     /// Not within the strains looked at.

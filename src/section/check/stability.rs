@@ -3,7 +3,7 @@ use nalgebra::{Matrix6, SymmetricEigen, Vector6};
 use super::Probe;
 use super::report::{AxisRange, Bound};
 use crate::error::Error;
-use crate::material::{Material, Request};
+use crate::material::Request;
 
 /// Steps of the search in each direction; the loss is then found by bisection.
 const STEPS: usize = 100;
@@ -22,7 +22,7 @@ enum State {
 }
 
 /// How far each strain alone can go, either way, before ∂Ψ/∂Δξ stops being positive definite.
-pub(super) fn ranges<M: Material>(probe: &Probe<'_, M>, largest: f64) -> [AxisRange; 6] {
+pub(super) fn ranges(probe: &Probe<'_>, largest: f64) -> [AxisRange; 6] {
     std::array::from_fn(|axis| AxisRange {
         axis,
         lower: bound(probe, axis, -largest),
@@ -31,7 +31,7 @@ pub(super) fn ranges<M: Material>(probe: &Probe<'_, M>, largest: f64) -> [AxisRa
     })
 }
 
-fn bound<M: Material>(probe: &Probe<'_, M>, axis: usize, largest: f64) -> Bound {
+fn bound(probe: &Probe<'_>, axis: usize, largest: f64) -> Bound {
     let mut stable = 0.0;
     for step in 0..=STEPS {
         let strain = largest * step as f64 / STEPS as f64;
@@ -43,13 +43,7 @@ fn bound<M: Material>(probe: &Probe<'_, M>, axis: usize, largest: f64) -> Bound 
     Bound::Beyond { strain: largest }
 }
 
-fn refine<M: Material>(
-    probe: &Probe<'_, M>,
-    axis: usize,
-    mut stable: f64,
-    mut lost: f64,
-    state_there: State,
-) -> Bound {
+fn refine(probe: &Probe<'_>, axis: usize, mut stable: f64, mut lost: f64, state_there: State) -> Bound {
     let mut found = state_there;
     for _ in 0..HALVINGS {
         let middle = 0.5 * (stable + lost);
@@ -65,7 +59,7 @@ fn refine<M: Material>(
     }
 }
 
-fn state<M: Material>(probe: &Probe<'_, M>, axis: usize, size: f64) -> State {
+fn state(probe: &Probe<'_>, axis: usize, size: f64) -> State {
     let mut components = [0.0; 6];
     components[axis] = size;
     let response = match probe.respond(&probe.strain(components), Request::Tangent) {

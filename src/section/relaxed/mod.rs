@@ -28,6 +28,7 @@ use super::{CrossSection, Section};
 use crate::error::{Error, Result};
 use crate::lie::Strain;
 use crate::material::{Local, Request, Response, Station, check_strain};
+use crate::quadrature::Rule;
 
 pub use choose::{LadderReport, LadderStep};
 pub use deformed::{Deformed, Extremes, SectionPoint};
@@ -78,6 +79,7 @@ pub struct Relaxed<S, M> {
     law: M,
     warping: Warping,
     degree: Option<usize>,
+    rule: Rule,
     fixed: Option<Modes>,
     /// Whether pressures keep the volume.
     incompressible: bool,
@@ -167,7 +169,8 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
 
     fn with(shape: S, law: M, incompressible: bool) -> Result<Self> {
         let (warping, degree, fixed, predictor) = (Warping::TORSION, None, None, None);
-        Self { shape, law, warping, degree, fixed, incompressible, predictor }.prepared()
+        let rule = shape.rule(2)?; // until the degree is known
+        Self { shape, law, warping, degree, rule, fixed, incompressible, predictor }.prepared()
     }
 
     /// The same with the functions of another rung of the ladder, or any degrees.
@@ -221,6 +224,7 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
             let requirement = "at least 2 (d - 1) for displacements of degree d: a poorer one leaves some without an energy";
             return Err(Error::Invalid { quantity, value: degree as f64, requirement });
         }
+        self.rule = self.shape.rule(degree)?;
         self.fixed = None;
         self.predictor = None;
         if self.shape.is_constant() {
@@ -231,8 +235,6 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
             // a law that has no rest, or none here, starts from no displacement
             self.predictor = rest.ok().map(|rest| (rest.sensitivity(), rest.q));
             self.fixed = Some(modes);
-        } else {
-            self.shape.rule(degree)?;
         }
         Ok(self)
     }
@@ -247,8 +249,7 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
     }
 
     fn modes_at(&self, s: f64) -> Result<Modes> {
-        let rule = self.shape.rule(self.quadrature_degree())?;
-        Modes::new(self.shape.place(&rule, s)?, self.shape.is_ring(), self.warping)
+        Modes::new(self.shape.place(&self.rule, s)?, self.shape.is_ring(), self.warping)
     }
 
     fn modes(&self, s: f64) -> Result<Cow<'_, Modes>> {
@@ -260,12 +261,12 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
 
     /// How many modes the section deforms in.
     pub fn mode_count(&self) -> usize {
-        self.fixed.as_ref().map_or(0, Modes::len)
+        modes::count(self.warping, self.shape.is_ring())
     }
 
-    /// How many quadrature points the section has; 0 where the shape varies along s.
+    /// How many quadrature points the section has.
     pub fn point_count(&self) -> usize {
-        self.fixed.as_ref().map_or(0, |modes| modes.points.len())
+        self.rule.len()
     }
 
     /// How the section deforms.
@@ -367,7 +368,7 @@ impl<S: Shape, M: Local> Geometry for Relaxed<S, M> {
     fn moments(&self, s: f64) -> Result<AreaMoments> {
         match &self.fixed {
             Some(modes) => Ok(AreaMoments::of(&modes.points)),
-            None => Ok(AreaMoments::of(&self.shape.place(&self.shape.rule(2)?, s)?)),
+            None => Ok(AreaMoments::of(&self.shape.place(&self.rule, s)?)),
         }
     }
 

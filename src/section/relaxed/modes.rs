@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix4, Matrix4x3, Vector4};
 
-use super::space::{Raw, Space};
+use super::space::{self, Raw, Space};
 use super::warping::Warping;
 use crate::error::Result;
 use crate::material::Points;
@@ -22,13 +22,24 @@ pub(super) struct Modes {
     rotation: Vector4<f64>,
 }
 
+/// How many modes there are, from the functions of an in-plane and of the axial component.
+fn len(in_plane: bool, plane: usize, axial: usize) -> usize {
+    let plane = if in_plane { 3 + 2 * (plane - 3) } else { 0 };
+    plane + axial - 3
+}
+
+/// How many modes a rung has, on a round tube or on any other shape.
+pub(super) fn count(warping: Warping, ring: bool) -> usize {
+    let [plane, axial] = [warping.in_plane, warping.axial].map(|d| space::count(ring, d));
+    len(warping.in_plane > 0, plane, axial)
+}
+
 impl Modes {
     pub(super) fn new(points: Points, ring: bool, warping: Warping) -> Result<Self> {
         let degree = warping.degree();
         let raw = Raw::new(&points, ring);
         let space = Space::new(raw, &points, degree)?;
-        let count = |d: usize| if d == 0 { 3 } else { raw.count(d) };
-        let counts = [count(warping.in_plane), count(warping.in_plane), count(warping.axial)];
+        let counts = [warping.in_plane, warping.in_plane, warping.axial].map(|d| raw.count(d));
         let rotation = rotation(&points, &space);
         // the reflection that takes the rotation to the first axis takes the other three axes to its complement
         let mirror = rotation + Vector4::ith(0, if rotation[0] < 0.0 { -1.0 } else { 1.0 });
@@ -39,8 +50,7 @@ impl Modes {
 
     /// How many modes there are.
     pub(super) fn len(&self) -> usize {
-        let plane = if self.in_plane { 3 + 2 * (self.counts[0] - 3) } else { 0 };
-        plane + self.counts[2] - 3
+        len(self.in_plane, self.counts[0], self.counts[2])
     }
 
     /// The largest degree of the functions.

@@ -39,6 +39,15 @@ pub(super) struct Space {
 /// The smallest part of a function, relative to the whole, that may be left when what the lower ones span is taken off it.
 const INDEPENDENT: f64 = 1e-9;
 
+/// How many functions there are up to a degree; three at least, which the rigid motions are made of.
+pub(super) fn count(ring: bool, degree: usize) -> usize {
+    match (degree, ring) {
+        (0, _) => 3,
+        (d, true) => (d + 1) * (2 * d + 1),
+        (d, false) => (d + 1) * (d + 2) / 2,
+    }
+}
+
 impl Raw {
     pub(super) fn new(points: &Points, ring: bool) -> Self {
         let area: f64 = points.weight.iter().sum();
@@ -58,8 +67,7 @@ impl Raw {
 
     /// How many functions there are up to a degree.
     pub(super) fn count(&self, degree: usize) -> usize {
-        let d = degree.max(1);
-        if self.ring { (d + 1) * (2 * d + 1) } else { (d + 1) * (d + 2) / 2 }
+        count(self.ring, degree)
     }
 
     /// The functions up to a degree, the constant and the two linear ones first.
@@ -122,7 +130,7 @@ fn legendre<D: Scalar>(t: D, n: usize) -> Vec<D> {
 
 /// Value, two first and three second derivatives of every raw function at every point: 6 matrices Q × N.
 fn tabulate(raw: &Raw, points: &Points, degree: usize) -> [DMatrix<f64>; 6] {
-    let (q_count, n) = (points.len(), raw.count(degree));
+    let (q_count, n) = (points.len(), raw.count(degree.max(1)));
     let mut out: [DMatrix<f64>; 6] = std::array::from_fn(|_| DMatrix::zeros(q_count, n));
     let variable = |value: f64, k: usize| {
         let mut unit = SMatrix::<f64, 1, 2>::zeros();

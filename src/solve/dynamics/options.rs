@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::solve::Order;
 
 /// How long a step is.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
     /// Always the same, s; only the last is cut to end where it shall.

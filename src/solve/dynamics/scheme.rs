@@ -1,6 +1,7 @@
 //! The time schemes: their coefficients.
 
 /// How time is discretised.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scheme {
     /// ESDIRK4(3)6L\[2\]SA: six stages, the first explicit and the others implicit with the same diagonal; order 4 in poses, velocities, strains

@@ -3,7 +3,9 @@
 use super::descend::{descend, turned_aside};
 use super::family::RodFamily;
 use super::load_steps::load_steps;
-use super::verdict::{NEUTRAL_START, SAFE, is_conservative, is_surely_stable, needed_parts, stability};
+use super::verdict::{
+    NEUTRAL_START, SAFE, is_conservative, is_stable_by_pivots, is_surely_stable, needed_parts, stability,
+};
 use crate::body::Elastic;
 use crate::solve::cascade::Cascade;
 use crate::solve::continuation::{End, Stride, trace};
@@ -111,7 +113,7 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         if total > MOST_ELEMENTS {
             parts.iter_mut().for_each(|count| *count = (*count * MOST_ELEMENTS / total).max(1));
         }
-        let from = from.prolonged(&mesh, &parts);
+        let from = from.prolonged(&mesh, &parts, None);
         let mesh = mesh.refined(&parts);
         let from = turned_aside(&mesh, &from);
         (mesh, from)
@@ -138,6 +140,9 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         neutral: f64,
     ) -> Stability {
         let stability = match &outcome.state {
+            Some(state) if is_stable_by_pivots(mesh, outcome, state) => {
+                Stability::Index { unstable: 0, neutral: 0 }
+            }
             Some(state) if is_surely_stable(mesh, state, self.buffers, neutral) => {
                 Stability::Index { unstable: 0, neutral: 0 }
             }
@@ -180,7 +185,9 @@ pub(in crate::solve) fn unstable<B: Elastic, const S: usize>(
 ) -> Box<Failure> {
     cascade.report.stability = stability;
     let report = cascade.report.clone();
-    let last =
-        outcome.state.as_ref().map(|state| describe(mesh, &outcome.unknowns.strains, state, report.clone()));
+    let last = outcome
+        .state
+        .as_ref()
+        .map(|state| describe(mesh, &outcome.unknowns.strains, state, None, report.clone()));
     Box::new(Failure { reason: Reason::Unstable { stability }, report, last })
 }

@@ -45,7 +45,12 @@ fn steps<B: Elastic, const S: usize>(
             Some((at, unknowns)) => secant(unknowns, &here.1, (factor - here.0) / (here.0 - at)),
             None => here.1.clone(),
         };
-        let mut newton = Newton { max_iterations: ITERATIONS, stop: Stop::Step(1e-6), observer: &mut |_| () };
+        let mut newton = Newton {
+            max_iterations: ITERATIONS,
+            stop: Stop::Step(1e-6),
+            observer: &mut |_| (),
+            amplification: 1.0,
+        };
         let outcome = newton.solve(mesh, start, buffers, history);
         if outcome.failure.is_none() {
             if factor == 1.0 {

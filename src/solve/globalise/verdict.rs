@@ -2,7 +2,7 @@ use crate::body::Elastic;
 use crate::solve::equilibrium::Configuration;
 use crate::solve::linear::Buffers;
 use crate::solve::mesh::Mesh;
-use crate::solve::newton::scale;
+use crate::solve::newton::{Outcome, scale};
 use crate::solve::report::Stability;
 use crate::solve::stability::{Verdict, chain};
 use crate::solve::unknowns::Unknowns;
@@ -39,8 +39,58 @@ pub(super) fn softening<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     state: &Configuration<S>,
 ) -> Option<f64> {
-    (0..mesh.elements()).find_map(|i| {
-        (0..S).find(|&k| state.response[i][k].tangent.cholesky().is_none()).map(|k| mesh.stage_s(i, k))
+    let mut definite = None;
+    for i in 0..mesh.elements() {
+        for k in 0..S {
+            let tangent = &state.response[i][k].tangent;
+            // most laws are linear: what is the same as before needs no second look
+            if definite != Some(tangent) && tangent.cholesky().is_none() {
+                return Some(mesh.stage_s(i, k));
+            }
+            definite = Some(tangent);
+        }
+    }
+    None
+}
+
+/// Whether the pivots of the last Newton step leave no doubt that a state is stable: with room for that step to have changed them, and elements
+/// so short that none can buckle with its ends kept from rotating.
+///
+/// Under a dead force on the tip alone, which is all that the pivots are known for, poses matter by their rotations only.
+pub(super) fn is_stable_by_pivots<B: Elastic, const S: usize>(
+    mesh: &Mesh<'_, B, S>,
+    outcome: &Outcome<S>,
+    state: &Configuration<S>,
+) -> bool {
+    let unit = scale(mesh, state).wrench()[0];
+    let loads = state.node_wrench.iter().map(|w| scale(mesh, state).wrench_size(w));
+    let most = loads.fold(1.0, f64::max);
+    let room = 100.0 * outcome.last_step * most + 1e-3;
+    outcome.least_stiffness > room * unit
+        && (0..mesh.elements()).all(|i| is_resolved(mesh, i, state))
+        && is_conservative(mesh, state)
+        && softening(mesh, state).is_none()
+}
+
+/// An element whose ends may move but not rotate is stable below 1.
+const SURELY_RESOLVED: f64 = 0.75;
+
+/// Whether an element is stable whose ends may move but not rotate: (|m| h/2πk)² + n h²/π²k below 1, with the least stiffness k against
+/// bending and torsion, and n the force taken as compressive, with what shear adds to it.
+///
+/// With w = 0 at both ends, ∫k|w′|² − m·(w × w′) − n|w|² is ∫k|w′ − ½ m × w/k|² − (¼|m|²/k + n)|w|² at the least, and its first part at
+/// least kπ²/h² ∫|w|².
+fn is_resolved<B: Elastic, const S: usize>(
+    mesh: &Mesh<'_, B, S>,
+    i: usize,
+    state: &Configuration<S>,
+) -> bool {
+    let x = mesh.h(i) / std::f64::consts::PI;
+    state.response[i].iter().zip(&state.stage_wrench[i]).all(|(response, wrench)| {
+        let d = response.tangent.diagonal();
+        let (bending, soft) = (d[0].min(d[1]).min(d[2]), d[3].min(d[4]).min(d[5]));
+        let (moment, force) = (0.5 * x * wrench.moment.norm() / bending, wrench.force.norm());
+        moment * moment + (force + force * force / soft) * x * x / bending <= SURELY_RESOLVED
     })
 }
 
@@ -118,7 +168,7 @@ fn refined<B: Elastic, const S: usize>(
             break;
         }
         let fine = mesh.refined(&parts);
-        let prolonged = unknowns.prolonged(mesh, &parts);
+        let prolonged = unknowns.prolonged(mesh, &parts, None);
         if fine.configure(&prolonged, &mut state).is_err() {
             break;
         }

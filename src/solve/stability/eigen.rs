@@ -72,8 +72,8 @@ fn rotate(n: usize, a: &mut [[f64; MAX]; MAX], v: &mut [[f64; MAX]; MAX], p: usi
         return false;
     }
     let theta = (a[q][q] - a[p][p]) / (2.0 * off);
-    let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
-    let c = 1.0 / t.hypot(1.0);
+    let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+    let c = 1.0 / (t * t + 1.0).sqrt();
     let s = t * c;
     for k in 0..n {
         let (x, y) = (a[k][p], a[k][q]);

@@ -1,4 +1,4 @@
-//! The answers of every law at every level, for every request, against num-dual; to 50 digits they are held in `material_reference`.
+//! The answers of every law at every level, for every request, against num-dual; to 50 digits they are held in `reference`.
 
 use hyperrod::Strain;
 use hyperrod::material::*;
@@ -22,7 +22,7 @@ impl AtEveryLevel {
         Self { points, strain, worst: (0.0, String::new()) }
     }
 
-    fn hold(&mut self, name: &str, law: &impl Material, at: &Station, expected: &Expected, exact: bool) {
+    fn hold(&mut self, name: &str, law: &dyn Material, at: &Station, expected: &Expected, exact: bool) {
         for request in REQUESTS {
             let answer = law.integrate(&self.points, at, &self.strain, request).unwrap();
             if exact {
@@ -36,15 +36,26 @@ impl AtEveryLevel {
     }
 }
 
+impl AtEveryLevel {
+    /// On a straight reference and on a curved one.
+    fn hold_both(
+        &mut self,
+        name: &str,
+        law: &dyn Material,
+        on_a_line: &dyn Density,
+        on_a_curve: &dyn Density,
+    ) {
+        let values = expected(on_a_line, &self.points, &straight(), &self.strain);
+        self.hold(name, law, &straight(), &values, true);
+        let values = expected(on_a_curve, &self.points, &curved(), &self.strain);
+        self.hold(&format!("{name}, curved"), law, &curved(), &values, true);
+    }
+}
+
 /// Every law at its own level: compiling each at all levels takes ten minutes.
 impl Visitor for AtEveryLevel {
     fn visit<L: Local + Clone + 'static>(&mut self, name: &str, law: &L) {
-        let at = straight();
-        let values = expected(&crate::oracle::Straight(law), &self.points, &at, &self.strain);
-        self.hold(name, law, &at, &values, true);
-        let at = curved();
-        let values = expected(&Curved(law), &self.points, &at, &self.strain);
-        self.hold(&format!("{name}, curved"), law, &at, &values, true);
+        self.hold_both(name, law, &crate::oracle::Straight(law), &Curved(law));
     }
 }
 
@@ -56,12 +67,12 @@ impl AtEveryLevel {
         let values = expected(&crate::oracle::Straight(law), &self.points, &at, &self.strain);
         self.hold(&format!("{name}, local"), &AtLocalLevel(law.clone()), &at, &values, true);
         self.hold(&format!("{name}, sectional"), &AtSectionLevel(law.clone()), &at, &values, true);
-        self.hold(&format!("{name}, local closure"), &local_closure, &at, &values, false);
-        self.hold(&format!("{name}, sectional closure"), &sectional_closure, &at, &values, false);
+        self.hold(&format!("{name}, local closure"), &*local_closure, &at, &values, false);
+        self.hold(&format!("{name}, sectional closure"), &*sectional_closure, &at, &values, false);
         let at = curved();
         let values = expected(&Curved(law), &self.points, &at, &self.strain);
         self.hold(&format!("{name}, curved, local"), &AtLocalLevel(law.clone()), &at, &values, true);
-        self.hold(&format!("{name}, curved, local closure"), &local_closure, &at, &values, false);
+        self.hold(&format!("{name}, curved, local closure"), &*local_closure, &at, &values, false);
     }
 }
 

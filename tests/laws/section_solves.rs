@@ -1,7 +1,4 @@
 //! Tapered tension, pure bending and torsion with a free end (set C), solved at the section by Newton on its wrench and tangent.
-#![allow(clippy::expect_used, clippy::unwrap_used)] // a test stops where its data are wrong
-
-mod section_reference;
 
 use hyperrod::material::*;
 use hyperrod::quadrature::{annulus, gauss_legendre};
@@ -70,7 +67,7 @@ fn section(case: &Value) -> Option<Box<dyn CrossSection>> {
             "rectangle" => place(&Rectangle::new(size("b"), size("h"))),
             "annulus" => annulus(DEGREE)
                 .and_then(|rule| rule.at(size("Ri"), size("Ro")))
-                .map(section_reference::as_points),
+                .map(crate::section_reference::as_points),
             _ => return None,
         };
         Some(Box::new(Filled { points: points.expect("an admissible section"), law }))
@@ -82,7 +79,7 @@ fn section(case: &Value) -> Option<Box<dyn CrossSection>> {
         "svk" => fill(case, SaintVenantKirchhoff::new(c("mu"), c("lam"))),
         "gent" => fill(case, Gent::new(c("mu"), c("lam"), c("Jm"))),
         "mr_pressure" => fill(case, MooneyRivlin::new(c("C1"), c("C2")).map(ReferencePressure)),
-        "mr_relaxed" => fill(case, Ok(section_reference::relaxed_fibre(c("C1"), c("C2")))),
+        "mr_relaxed" => fill(case, Ok(crate::section_reference::relaxed_fibre(c("C1"), c("C2")))),
         "poly5_bar" => {
             let powers =
                 [((1, 0), "C10"), ((0, 1), "C01"), ((2, 0), "C20"), ((1, 1), "C11"), ((0, 2), "C02")];

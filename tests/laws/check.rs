@@ -1,5 +1,4 @@
 //! `section::check` finds what is known of a law, and finds fault with a law that has one.
-#![allow(clippy::expect_used, clippy::unwrap_used)] // a test stops where its data are wrong
 
 use hyperrod::Strain;
 use hyperrod::material::*;

@@ -1,9 +1,6 @@
 //! Every law against 54-digit integrals over the section (set A), tiny strains included.
-#![allow(clippy::expect_used, clippy::unwrap_used)] // a test stops where its data are wrong
 
-mod section_reference;
-
-use section_reference::{DEGREE, groups};
+use crate::section_reference::{DEGREE, groups};
 
 /// What is reached is rounding: some 20 operations in u, and a sum of up to 1e4 points whose errors average.
 const TOLERANCE: f64 = 1e-13;
