@@ -3,7 +3,9 @@
 use super::descend::{descend, turned_aside};
 use super::family::RodFamily;
 use super::load_steps::load_steps;
-use super::verdict::{NEUTRAL_START, SAFE, is_stable_by_pivots, is_surely_stable, needed_parts, stability};
+use super::verdict::{
+    NEUTRAL_START, SAFE, is_conservative, is_stable_by_pivots, is_surely_stable, needed_parts, stability,
+};
 use crate::body::Elastic;
 use crate::solve::cascade::Cascade;
 use crate::solve::continuation::{End, Stride, trace};
@@ -56,7 +58,10 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
             return Ok((mesh, outcome));
         }
         let stability = self.stability_of(&mesh, &outcome, NEUTRAL_START);
-        if self.accept_unstable || !stability.is_unstable() {
+        // what cannot be told of a rod with an energy is looked into
+        let told = stability != Stability::Unknown
+            || outcome.state.as_ref().is_none_or(|state| !is_conservative(&mesh, state));
+        if self.accept_unstable || (told && !stability.is_unstable()) {
             return Ok((mesh, outcome));
         }
         let failure = unstable(&mesh, &outcome, stability, self);
@@ -110,7 +115,7 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         }
         let from = from.prolonged(&mesh, &parts, None);
         let mesh = mesh.refined(&parts);
-        let from = if unstable.is_some() { turned_aside(&mesh, &from) } else { from };
+        let from = turned_aside(&mesh, &from);
         (mesh, from)
     }
 

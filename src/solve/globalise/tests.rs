@@ -63,3 +63,18 @@ fn a_compressed_rod_goes_down_to_its_buckled_shape() {
         assert!(found.is_some(), "{elements}: {} iterations", history.len());
     }
 }
+
+#[test]
+fn a_rod_bent_a_little_at_rest_is_found_buckled_from_any_start() {
+    let section = Stiffness::diagonal([1.0, 1.5, 1.0, 1e5, 1e5, 3e5]).unwrap();
+    let far = Pose::new(Matrix3::identity(), vector![0.0, 0.0, 0.9]);
+    for imperfection in [1e-4, 0.0] {
+        let bent = crate::Twist::from_array([8.0 * imperfection, 0.0, 0.0, 0.0, 0.0, 1.0]);
+        let body = Body::new(1.0, section).unwrap().with_reference_strain(bent).unwrap();
+        let rod = Rod::between(body, Support::clamped(Pose::identity()), Support::clamped(far));
+        let solution = crate::Statics::to(1e-8)
+            .solve(&rod)
+            .unwrap_or_else(|e| panic!("{imperfection}: {e} {:?}", e.report.rungs));
+        assert!(!solution.report().stability.is_unstable());
+    }
+}

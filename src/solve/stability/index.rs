@@ -54,10 +54,10 @@ impl Chain {
             return Verdict::Index { unstable: 0, neutral: 0 };
         }
         match self.sweep() {
-            Ok(swept) => match swept.last.count(neutral) {
-                Some((last, neutral)) => Verdict::Index { unstable: swept.before + last, neutral },
-                None => Verdict::Unresolved { element: self.links.len() - 1 },
-            },
+            Ok(swept) => {
+                let (last, neutral) = swept.last.count(neutral);
+                Verdict::Index { unstable: swept.before + last, neutral }
+            }
             Err(element) => Verdict::Unresolved { element },
         }
     }

@@ -62,7 +62,9 @@ pub(super) fn joining(relation: &Relation, link: &Link) -> Option<usize> {
     let held = Held::new(link)?;
     let c = relation.basis.tr_mul(&held.compliance) * relation.basis;
     let whole = Symmetric::part_of(12 - relation.stiff, |i, j| joined(relation, &c, i, j)).eigen();
-    (negative_compliances(relation) + whole.below(0.0)).checked_sub(held.positive)
+    // a tangent that is symmetric only to the order of the element may be short of one
+    let negative = negative_compliances(relation) + whole.below(0.0);
+    whole.is_finite().then(|| negative.saturating_sub(held.positive))
 }
 
 /// The last pivot: the node before the tip and the tip together, under what holds the tip.
@@ -103,16 +105,16 @@ impl Last {
             _ => 0.0,
         };
         let eigen = Symmetric::part_of(inner + movable, entry).eigen();
-        let constraints = held.positive.checked_sub(negative_compliances(relation))?;
+        let constraints = held.positive.saturating_sub(negative_compliances(relation));
         let (stiff, inverse) = (relation.stiff, relation.inverse);
         eigen.is_finite().then_some(Self { eigen, stiff, inverse, free, movable, constraints })
     }
 
     /// Unstable modes that the last two nodes add, and those that are neither stable nor unstable to within `tolerance`.
-    pub(super) fn count(&self, tolerance: f64) -> Option<(usize, usize)> {
+    pub(super) fn count(&self, tolerance: f64) -> (usize, usize) {
         let negative = self.eigen.below(-tolerance);
         let neutral = self.eigen.below(tolerance) - negative;
-        Some((negative.checked_sub(self.constraints)?, neutral))
+        (negative.saturating_sub(self.constraints), neutral)
     }
 
     /// The eigenvalue that vanishes when the k-th of these modes becomes unstable.
