@@ -104,6 +104,9 @@ pub struct Buckling {
     pub modes: Vec<Vec<Twist>>,
 }
 
+/// What costs nothing at an event of a path.
+const NEUTRAL_AT_EVENT: f64 = 1e-5;
+
 /// What a walk needs of a rod.
 pub(super) struct Walker<'m, 'r, B, const S: usize> {
     mesh: Mesh<'r, B, S>,
@@ -180,16 +183,20 @@ impl<'m, 'r, B: Elastic, const S: usize> Walker<'m, 'r, B, S> {
         let mut family = RodFamily { mesh: &mut self.mesh, buffers: self.buffers };
         let Some((chain, scale)) = family.chain(&point.state, point.factor) else { return Vec::new() };
         let units = scale.displacement();
-        let modes = numbers.filter_map(|number| chain.mode(number));
+        let mut modes = chain.neutral_modes(NEUTRAL_AT_EVENT);
+        if modes.len() < numbers.len() {
+            // an event that was found only roughly
+            modes = numbers.filter_map(|number| chain.mode(number)).collect();
+        }
         let twist =
             |zeta: &nalgebra::Vector6<f64>| Twist::from_array(std::array::from_fn(|r| zeta[r] * units[r]));
-        modes.map(|mode| mode.iter().map(|(zeta, _)| twist(zeta)).collect()).collect()
+        modes.iter().map(|mode| mode.iter().map(|(zeta, _)| twist(zeta)).collect()).collect()
     }
 
     /// The first mode at a bifurcation as a step.
     fn increment(&mut self, point: &PathPoint<Unknowns<S>>) -> Option<Increment<S>> {
         let mut family = RodFamily { mesh: &mut self.mesh, buffers: self.buffers };
-        family.mode(&point.state, point.factor, 0)
+        family.neutral_modes(&point.state, point.factor, NEUTRAL_AT_EVENT).into_iter().next()
     }
 
     fn described(&mut self, traced: &Traced<Unknowns<S>>) -> EquilibriumPath {

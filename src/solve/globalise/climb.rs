@@ -158,9 +158,11 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
 
     /// Finds the neutral modes of a start, as the turning of a buckled round column about its axis, so that Newton's method leaves them alone.
     pub(in crate::solve) fn hold_neutral_modes(&mut self, mesh: &mut Mesh<'r, B, S>, start: &Unknowns<S>) {
-        let mut family = RodFamily { mesh, buffers: self.buffers };
-        let modes = (0..self.neutral).filter_map(|number| family.mode(start, 1.0, number)).collect();
-        self.buffers.neutral = modes;
+        self.buffers.neutral.clear();
+        if self.neutral > 0 {
+            let mut family = RodFamily { mesh, buffers: self.buffers };
+            self.buffers.neutral = family.neutral_modes(start, 1.0, NEUTRAL_START);
+        }
     }
 
     /// The first state of the full load on the path from rest.

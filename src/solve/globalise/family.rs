@@ -4,6 +4,7 @@ use nalgebra::Vector6;
 
 use crate::body::Elastic;
 use crate::error::Result;
+use crate::lie::Wrench;
 use crate::rod::element::frame_change;
 use crate::solve::continuation::{Family, Tangents};
 use crate::solve::linear::{Buffers, Increment, NodeStep};
@@ -55,28 +56,35 @@ impl<B: Elastic, const S: usize> RodFamily<'_, '_, B, S> {
         found
     }
 
-    /// The mode of a number as a step from a state: strains, displacements and changes of the wrenches.
-    pub(crate) fn mode(&mut self, state: &Unknowns<S>, factor: f64, number: usize) -> Option<Increment<S>> {
-        let (chain, scale) = self.chain(state, factor)?;
+    /// The modes that cost nothing, to within `tolerance`, as steps from a state: strains, displacements and changes of the wrenches.
+    pub(crate) fn neutral_modes(
+        &mut self,
+        state: &Unknowns<S>,
+        factor: f64,
+        tolerance: f64,
+    ) -> Vec<Increment<S>> {
+        let Some((chain, scale)) = self.chain(state, factor) else { return Vec::new() };
         let mut configuration = self.buffers.configuration();
-        self.mesh.configure(state, &mut configuration).ok()?;
+        if self.mesh.configure(state, &mut configuration).is_err() {
+            return Vec::new();
+        }
         let (displacement, wrench) = (scale.displacement(), scale.wrench());
-        let nodes: Vec<NodeStep> = chain
-            .mode(number)?
-            .iter()
-            .zip(&configuration.node_wrench)
-            .map(|((zeta, momentum), at)| {
-                let zeta = Vector6::from_fn(|r, _| zeta[r] * displacement[r]);
-                let momentum = Vector6::from_fn(|r, _| momentum[r] * wrench[r]);
-                (zeta, momentum + frame_change(at) * zeta * 0.5)
-            })
-            .collect();
+        let at_node = |((zeta, momentum), at): (&NodeStep, &Wrench)| {
+            let zeta = Vector6::from_fn(|r, _| zeta[r] * displacement[r]);
+            let momentum = Vector6::from_fn(|r, _| momentum[r] * wrench[r]);
+            (zeta, momentum + frame_change(at) * zeta * 0.5)
+        };
+        let step = |mode: Vec<NodeStep>| {
+            let nodes: Vec<NodeStep> = mode.iter().zip(&configuration.node_wrench).map(at_node).collect();
+            let elements = self.buffers.condensed.iter().zip(&nodes).take(self.mesh.elements());
+            let strains =
+                elements.map(|(element, (zeta, wrench))| element.strain_of_node(zeta, wrench)).collect();
+            let reactions = vec![Vector6::zeros(); self.mesh.rod.joints().len()];
+            Increment { strains, nodes, reactions }
+        };
+        let steps = chain.neutral_modes(tolerance).into_iter().map(step).collect();
         self.buffers.recycle(configuration);
-        let elements = self.buffers.condensed.iter().zip(&nodes).take(self.mesh.elements());
-        let strains =
-            elements.map(|(element, (zeta, wrench))| element.strain_of_node(zeta, wrench)).collect();
-        let reactions = vec![Vector6::zeros(); self.mesh.rod.joints().len()];
-        Some(Increment { strains, nodes, reactions })
+        steps
     }
 }
 

@@ -75,7 +75,15 @@ impl Chain {
     /// (ζ, μ) at the starts of the elements and at the tip in the mode of number `mode`, in units of the rod, the largest displacement 1.
     pub(crate) fn mode(&self, mode: usize) -> Option<Vec<(Vector6<f64>, Vector6<f64>)>> {
         let swept = self.sweep().ok()?;
-        mode::shape(&swept, self.links.last()?, mode.checked_sub(swept.before)?)
+        let place = swept.last.place(mode.checked_sub(swept.before)?);
+        mode::shape(&swept, self.links.last()?, place)
+    }
+
+    /// The same of the modes that cost nothing, to within `tolerance`.
+    pub(crate) fn neutral_modes(&self, tolerance: f64) -> Vec<Vec<(Vector6<f64>, Vector6<f64>)>> {
+        let (Ok(swept), Some(last)) = (self.sweep(), self.links.last()) else { return Vec::new() };
+        let places = swept.last.neutral(tolerance);
+        places.into_iter().filter_map(|place| mode::shape(&swept, last, place)).collect()
     }
 
     fn sweep(&self) -> Result<Swept, usize> {

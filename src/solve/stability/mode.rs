@@ -4,8 +4,8 @@ use super::index::Swept;
 use super::link::Link;
 
 /// The mode whose last two nodes are an eigenvector of the last pivot, back along the rod in the bases of the planes.
-pub(super) fn shape(swept: &Swept, last: &Link, k: usize) -> Option<Vec<(Vector6<f64>, Vector6<f64>)>> {
-    let (mut a, tip) = swept.last.mode(k)?;
+pub(super) fn shape(swept: &Swept, last: &Link, place: usize) -> Option<Vec<(Vector6<f64>, Vector6<f64>)>> {
+    let (mut a, tip) = swept.last.mode(place)?;
     let plane = swept.planes.last()?;
     let (zeta, momentum) = (plane.zeta * a, plane.momentum * a);
     let at_tip = last.momentum_zeta * zeta + last.momentum_momentum * momentum;

@@ -70,6 +70,7 @@ pub(super) fn joining(relation: &Relation, link: &Link) -> Option<usize> {
 /// The last pivot: the node before the tip and the tip together, under what holds the tip.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Last {
+    matrix: Symmetric,
     eigen: Eigen,
     stiff: usize,
     /// Coefficients in the basis of the plane before the last element, from (μ_stiff, ζ_soft).
@@ -104,17 +105,36 @@ impl Last {
             (false, false) => k[(i - inner, j - inner)],
             _ => 0.0,
         };
-        let eigen = Symmetric::part_of(inner + movable, entry).eigen();
+        let matrix = Symmetric::part_of(inner + movable, entry);
+        let eigen = matrix.eigen();
         let constraints = held.positive.saturating_sub(negative_compliances(relation));
         let (stiff, inverse) = (relation.stiff, relation.inverse);
-        eigen.is_finite().then_some(Self { eigen, stiff, inverse, free, movable, constraints })
+        eigen.is_finite().then_some(Self { matrix, eigen, stiff, inverse, free, movable, constraints })
     }
 
     /// Unstable modes that the last two nodes add, and those that are neither stable nor unstable to within `tolerance`.
     pub(super) fn count(&self, tolerance: f64) -> (usize, usize) {
-        let negative = self.eigen.below(-tolerance);
-        let neutral = self.eigen.below(tolerance) - negative;
-        (negative.saturating_sub(self.constraints), neutral)
+        let neutral = self.neutral(tolerance);
+        let negative = neutral.iter().filter(|&&place| self.eigen.value[place] < 0.0).count();
+        let unstable = self.eigen.below(0.0).saturating_sub(self.constraints);
+        (unstable.saturating_sub(negative), neutral.len())
+    }
+
+    /// Eigenvalues that vanish by cancellation: |vᵀ M v| is below the part `tolerance` of Σ |v_i M_ij v_j|. A constraint may have a small one of its
+    /// own, the compliance of a stiff direction, which is none.
+    pub(super) fn neutral(&self, tolerance: f64) -> Vec<usize> {
+        (0..self.eigen.size)
+            .filter(|&place| self.eigen.value[place].abs() < tolerance * self.size_of(place))
+            .collect()
+    }
+
+    fn size_of(&self, place: usize) -> f64 {
+        let v = |i: usize| self.eigen.vector[i][place];
+        let n = self.eigen.size;
+        (0..n)
+            .flat_map(|i| (0..n).map(move |j| (i, j)))
+            .map(|(i, j)| (v(i) * self.matrix.entry[i][j] * v(j)).abs())
+            .sum()
     }
 
     /// The eigenvalue that vanishes when the k-th of these modes becomes unstable.
@@ -123,9 +143,13 @@ impl Last {
         (place < self.eigen.size).then(|| self.eigen.value[place])
     }
 
-    /// That mode: the coefficients of the node before the tip in the basis of its plane, and the displacement of the tip.
-    pub(super) fn mode(&self, k: usize) -> Option<(Vector6<f64>, Vector6<f64>)> {
-        let place = self.constraints + k;
+    /// The place of the k-th mode among the eigenvalues.
+    pub(super) fn place(&self, k: usize) -> usize {
+        self.constraints + k
+    }
+
+    /// The mode of a place: the coefficients of the node before the tip in the basis of its plane, and the displacement of the tip.
+    pub(super) fn mode(&self, place: usize) -> Option<(Vector6<f64>, Vector6<f64>)> {
         if place >= self.eigen.size {
             return None;
         }
