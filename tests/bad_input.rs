@@ -204,8 +204,9 @@ fn pressed(law: impl hyperrod::material::Material, pressure: f64) -> Rod<impl hy
 #[test]
 fn a_step_that_turns_the_material_inside_out_is_shortened_and_the_solve_goes_on() {
     let pressure = 1.5 * (LAMBDA + 2.0 * MU);
-    let solution =
-        Statics { elements: 4, ..Default::default() }.solve(&pressed(neo_hookean(), pressure)).unwrap();
+    // far beyond its critical load: the stable answer hangs the other way
+    let straight = Statics { elements: 4, accept_unstable: true, ..Default::default() };
+    let solution = straight.solve(&pressed(neo_hookean(), pressure)).unwrap();
     let first = solution.report().iterations[0];
     assert!(first.fraction == 0.5, "the first step was not shortened: {first:?}");
     let (mut low, mut high) = (0.01, 1.0_f64);
@@ -253,7 +254,8 @@ fn a_solve_that_cannot_go_on_says_why_and_hands_back_its_last_state() {
             "30 %",
         ],
     );
-    assert_eq!(failure.report.iterations.len(), iteration);
+    // those of the rungs before the last as well
+    assert!(failure.report.iterations.len() >= iteration);
     assert!(failure.report.iterations[0].fraction == 0.5 && failure.report.residual > 0.1);
     // steps of a millionth of the way that is left, 0.1
     let last = failure.last.unwrap();
@@ -267,13 +269,14 @@ fn a_solve_out_of_iterations_hands_back_its_last_state() {
     let rod = Rod::clamped(Body::new(1.0, stiffness()).unwrap(), Pose::identity())
         .with_tip_load(DeadWrench::force(vector![10.0, 0.0, 0.0]).unwrap());
     let mut seen = Vec::new();
-    let options = Statics { elements: 8, max_iterations: 3, ..Default::default() };
+    // too few for every rung
+    let options = Statics { elements: 8, max_iterations: 1, ..Default::default() };
     let failure = options.solve_observed(&rod, |iteration| seen.push(*iteration)).unwrap_err();
-    let Reason::IterationLimit { limit: 3, step, tolerance } = failure.reason else { panic!("{failure}") };
+    let Reason::IterationLimit { limit: 1, step, tolerance } = failure.reason else { panic!("{failure}") };
     assert_eq!(tolerance, options.tolerance);
     assert_eq!(failure.report.iterations, seen);
-    assert_eq!((seen.len(), seen[2].step), (3, step));
-    says(&failure, &["3 iterations", &format!("{step:.3e}"), &format!("{tolerance:.1e}")]);
+    assert_eq!(seen[0].step, step, "the failure is that of the first rung");
+    says(&failure, &["1 iterations", &format!("{step:.3e}"), &format!("{tolerance:.1e}")]);
     let last = failure.last.unwrap();
     assert!(last.tip().pose.position.x > 0.1, "it had begun to bend");
     assert_eq!(last.nodes().len(), 5, "the coarse mesh");

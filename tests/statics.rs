@@ -104,7 +104,8 @@ fn a_tapered_neo_hookean_rod_in_tension_matches_its_quadrature() {
         let rod = Rod::clamped(body, Pose::identity())
             .with_tip_load(DeadWrench::force(vector![0.0, 0.0, number(case, "F")]).unwrap());
         for statics in FINE {
-            let solution = statics.solve(&rod).unwrap();
+            // where the force is beyond c GA a rod that shears is unstable in tension, and the straight state is the one of the reference
+            let solution = Statics { accept_unstable: true, ..statics }.solve(&rod).unwrap();
             let (tip, base) = (solution.tip(), solution.base());
             let middle = &solution.nodes()[solution.nodes().len() / 2];
             let z = number(case, "tip_z");

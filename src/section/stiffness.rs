@@ -70,7 +70,7 @@ impl Stiffness {
     /// Writes what is asked for; the rest is left as it is.
     fn answer(&self, at: &Station, strain: &Strain, request: Request, out: &mut Response) -> Result<()> {
         check_strain(strain, at.s)?;
-        let wrench = Wrench::from_vector(&(&self.k * strain.to_vector()));
+        let wrench = Wrench::from_vector(&(self.k * strain.to_vector()));
         out.energy = 0.5 * strain.pair(&wrench);
         if request >= Request::Wrench {
             out.wrench = wrench;

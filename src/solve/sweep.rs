@@ -17,7 +17,7 @@ const MISFIT: f64 = 1e-7;
 #[derive(Default)]
 pub(crate) struct Sweep {
     full: Vec<(Matrix6<f64>, Vector6<f64>)>,
-    dead: Vec<(Matrix3<f64>, Vector3<f64>)>,
+    dead: Vec<DeadRelation>,
     /// Of the last sweep under a dead force alone, else 0: no node resists a rotation by less, with the node before it held and the rod
     /// beyond it free.
     ///
@@ -157,15 +157,14 @@ fn stiffness_bound(matrix: &Matrix3<f64>, p: &Matrix3<f64>) -> f64 {
     4.0 * a.determinant() / (trace * trace * p.norm_squared())
 }
 
+/// δm = S w + s: S and s.
+type DeadRelation = (Matrix3<f64>, Vector3<f64>);
+
 /// The relation of the node before an element, and the [`stiffness_bound`] of that after it.
 ///
 /// (T_mm − S P_wm) δm_i = (S (Rᵀ + P_wn n^) − T_mn n^) w_i + S p_w + s − t_m, with T the moment rows and P the rotation rows of the transfer.
 #[inline]
-fn step_back_dead(
-    t: &Transfer,
-    (s, c): &(Matrix3<f64>, Vector3<f64>),
-    force: &Vector3<f64>,
-) -> Option<((Matrix3<f64>, Vector3<f64>), f64)> {
+fn step_back_dead(t: &Transfer, (s, c): &DeadRelation, force: &Vector3<f64>) -> Option<(DeadRelation, f64)> {
     let n = hat(force);
     let p_wm: Matrix3<f64> = t.zeta_from_wrench.fixed_view::<3, 3>(0, 0).into();
     let p_wn = t.zeta_from_wrench.fixed_view::<3, 3>(0, 3);
