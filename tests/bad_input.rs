@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use hyperrod::load::{DeadWrench, Gravity, LoadWrench, TipLoad};
 use hyperrod::material::{Invariants, Isotropic, LinearElastic, MooneyRivlin, NeoHookean, Point, Station};
 use hyperrod::section::{Circle, CrossSection, Linear, Rectangle, Section, Stiffness};
-use hyperrod::solve::{Failure, Reason};
+use hyperrod::solve::{Failure, Iteration, Reason};
 use hyperrod::{Body, Error, Pose, Result, Rod, Scalar, Statics, Strain, Twist};
 use nalgebra::{Matrix6, vector};
 
@@ -274,7 +274,10 @@ fn a_solve_out_of_iterations_hands_back_its_last_state() {
     let failure = options.solve_observed(&rod, |iteration| seen.push(*iteration)).unwrap_err();
     let Reason::IterationLimit { limit: 1, step, tolerance } = failure.reason else { panic!("{failure}") };
     assert_eq!(tolerance, options.tolerance);
-    assert_eq!(failure.report.iterations, seen);
+    // (the residual of a regularised step is not a number)
+    let steps =
+        |iterations: &[Iteration]| iterations.iter().map(|i| (i.elements, i.step)).collect::<Vec<_>>();
+    assert_eq!(steps(&failure.report.iterations), steps(&seen));
     assert_eq!(seen[0].step, step, "the failure is that of the first rung");
     says(&failure, &["1 iterations", &format!("{step:.3e}"), &format!("{tolerance:.1e}")]);
     let last = failure.last.unwrap();
