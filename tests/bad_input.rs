@@ -274,10 +274,11 @@ fn a_solve_out_of_iterations_hands_back_its_last_state() {
     let failure = options.solve_observed(&rod, |iteration| seen.push(*iteration)).unwrap_err();
     let Reason::IterationLimit { limit: 1, step, tolerance } = failure.reason else { panic!("{failure}") };
     assert_eq!(tolerance, options.tolerance);
-    // (the residual of a regularised step is not a number)
+    // an observer sees Newton's iterations; the report has those of regularised models as well
     let steps =
         |iterations: &[Iteration]| iterations.iter().map(|i| (i.elements, i.step)).collect::<Vec<_>>();
-    assert_eq!(steps(&failure.report.iterations), steps(&seen));
+    let reported = steps(&failure.report.iterations);
+    assert!(!seen.is_empty() && steps(&seen).iter().all(|step| reported.contains(step)));
     assert!(seen.iter().any(|iteration| iteration.step == step), "one of the rungs ended with {step}");
     says(&failure, &["1 iterations", &format!("{step:.3e}"), &format!("{tolerance:.1e}")]);
     let last = failure.last.unwrap();
