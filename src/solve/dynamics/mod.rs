@@ -6,6 +6,7 @@
 
 mod alpha;
 mod begin;
+mod border;
 mod conserve;
 mod core;
 mod engine;
@@ -13,10 +14,13 @@ mod factor;
 mod failure;
 mod frame;
 mod grid;
+mod linear;
 mod march;
 mod modes;
+mod mount;
 mod newton;
 mod options;
+mod place;
 mod present;
 mod relation;
 mod report;
