@@ -14,6 +14,9 @@ use crate::material::Request;
 use crate::rod::adjoint::free_motion;
 use crate::rod::support::Condition;
 
+/// The stiffness that is left where rates are sought, (… Δt)² K.
+pub(super) const LITTLE: f64 = 1e-4;
+
 fn as_twist(strain: &Strain) -> Twist {
     Twist::new(strain.angular, strain.linear)
 }
@@ -54,7 +57,7 @@ impl<const S: usize> Present<S> {
     }
 
     /// Velocities of all stages, and their accelerations for constant rates of strain.
-    fn set_velocities(&mut self, core: &mut Core<S>) {
+    pub(super) fn set_velocities(&mut self, core: &mut Core<S>) {
         let grid = &core.grid;
         let (mut velocity, mut acceleration) = (self.mounts[0].velocity, self.mounts[0].acceleration);
         for (i, points) in self.points.iter_mut().enumerate() {
@@ -84,14 +87,14 @@ impl<const S: usize> Present<S> {
     /// Accelerations that satisfy the balance: one linear solve, in which next to nothing but inertia counts.
     ///
     /// A little stiffness, (1e-4 Δt)² K, is left for what has no inertia.
-    fn set_accelerations<B: Movable>(
+    pub(super) fn set_accelerations<B: Movable>(
         &mut self,
         core: &mut Core<S>,
         scene: &Scene<'_, B>,
         step: f64,
     ) -> Result<()> {
         self.hold(core);
-        core.problem.stiffness = (1e-4 * step) * (1e-4 * step);
+        core.problem.stiffness = (LITTLE * step) * (LITTLE * step);
         core.move_to_strains();
         core.respond(scene, Request::Tangent)?;
         core.balance();

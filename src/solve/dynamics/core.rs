@@ -55,11 +55,14 @@ pub(super) struct Core<const S: usize> {
     force: Vec<[Wrench; S]>,
     /// At the end of the element before, and at the base.
     pub(super) node_wrench: Vec<Wrench>,
+    /// Of the velocity that a body on the base misses.
+    pub(super) base_impulse: Wrench,
     /// At the start of every element; after the corner, where there is one.
     pub(super) start_wrench: Vec<Wrench>,
     pub(super) residual: Vec<[Wrench; S]>,
     pub(super) factors: Vec<FactoredElement<S>>,
     pub(super) border: Border<S>,
+    other_factors: (Vec<FactoredElement<S>>, Border<S>),
     pub(super) step: Vec<[Strain; S]>,
     pub(super) base_step: Vector6<f64>,
     pub(super) reaction_step: Vec<Wrench>,
@@ -114,10 +117,12 @@ impl<const S: usize> Core<S> {
             load: vec![[none(); S]; n],
             force: vec![[Wrench::zero(); S]; n],
             node_wrench: vec![Wrench::zero(); n + 1],
+            base_impulse: Wrench::zero(),
             start_wrench: vec![Wrench::zero(); n],
             residual: vec![[Wrench::zero(); S]; n],
             factors: (0..n).map(|_| FactoredElement::empty()).collect(),
             border: Border::empty(),
+            other_factors: (Vec::new(), Border::empty()),
             step: vec![[Strain::zero(); S]; n],
             base_step: Vector6::zeros(),
             reaction_step: reactions,
@@ -238,10 +243,43 @@ impl<const S: usize> Core<S> {
         }
     }
 
+    /// As [`balance`](Self::balance), of the momenta of the velocities that are missing: those of the stages, and of the mounts.
+    pub(super) fn balance_impulses(&mut self, missing: &[[Twist; S]], at_mounts: &[Twist]) {
+        let grid = &self.grid;
+        let momentum = |mass: &Matrix6<f64>, twist: &Twist| Wrench::from_vector(&(mass * twist.to_vector()));
+        let impulse = |m: usize| match &self.mounts[m].mass {
+            Some(mass) => momentum(mass, &at_mounts[m]),
+            None => Wrench::zero(),
+        };
+        self.base_impulse = impulse(0);
+        self.node_wrench[grid.elements] = impulse(self.mounts.len() - 1);
+        for i in (0..grid.elements).rev() {
+            for k in 0..S {
+                self.force[i][k] = momentum(&grid.mass[i][k], &missing[i][k]) * grid.weight(i, k);
+            }
+            let at_end = self.node_wrench[i + 1];
+            let (at_start, at_stages) = self.legs[i].balance(&grid.table, grid.h(i), &at_end, &self.force[i]);
+            self.node_wrench[i] = match self.mount_at[i] {
+                Some(m) if i > 0 => self.mounts[m].turned_back(&at_start) + impulse(m),
+                _ => at_start,
+            };
+            self.residual[i] = at_stages.map(|wrench| -wrench);
+        }
+    }
+
+    /// Puts the factors for rates in the place of those for steps, or back.
+    pub(super) fn swap_factors(&mut self) {
+        if self.other_factors.0.is_empty() {
+            self.other_factors.0 = (0..self.grid.elements).map(|_| FactoredElement::empty()).collect();
+        }
+        std::mem::swap(&mut self.factors, &mut self.other_factors.0);
+        std::mem::swap(&mut self.border, &mut self.other_factors.1);
+    }
+
     /// The linearised element i about the state that was balanced.
     pub(super) fn element(&self, i: usize, relation: &Matrix6<f64>) -> AdjointElement<S> {
         let (grid, p) = (&self.grid, &self.problem);
-        let held = p.relation == Relation::Held;
+        let held = p.relation.is_of_rates();
         let mut stiffness = self.tangent[i];
         let mut force_tangent = [Matrix6::zeros(); S];
         for k in 0..S {

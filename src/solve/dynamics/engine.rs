@@ -141,8 +141,19 @@ impl<'s, 'r, B: Movable, const S: usize> Run<'s, 'r, B, S> {
 
     fn fail(&mut self, time: f64, reason: Reason) -> Box<Failure> {
         let last = Some(Box::new(self.save()));
-        let frame = self.present.describe(&mut self.core, self.scene).ok().map(Box::new);
+        let frame = self.describe().ok().map(Box::new);
         Box::new(Failure { time, reason, last, frame })
+    }
+
+    /// The present, described: after a step of ESDIRK with rates that are consistent with what is held.
+    fn describe(&mut self) -> Result<Frame, Error> {
+        let step = self.march.last_step;
+        if step > 0.0 && self.how.scheme == Scheme::Esdirk43 && self.scene.is_constrained() {
+            let mut consistent = self.present.clone();
+            consistent.make_consistent(&mut self.core, self.scene, step)?;
+            return consistent.describe(&mut self.core, self.scene);
+        }
+        self.present.describe(&mut self.core, self.scene)
     }
 
     fn report(&self, dt: f64, made: &Made, rejected: usize) -> StepReport {
@@ -232,7 +243,7 @@ impl<B: Movable, const S: usize> Engine for Run<'_, '_, B, S> {
     }
 
     fn frame(&mut self) -> Result<Frame, Box<Failure>> {
-        match self.present.describe(&mut self.core, self.scene) {
+        match self.describe() {
             Ok(frame) => Ok(frame),
             Err(error) => {
                 let time = self.present.time;

@@ -113,8 +113,13 @@ impl<const S: usize> Core<S> {
 
     /// What the support of a mount applies: at the base, what the balance asks of it.
     pub(super) fn reaction(&self, m: usize) -> Wrench {
-        let moving = self.problem.relation != Relation::Static;
+        let relation = self.problem.relation;
         let mount = &self.mounts[m];
+        if relation == Relation::Impulse {
+            // of which there is none yet; the body on the base counts with what is missing of its velocity
+            return if m == 0 { -self.node_wrench[0] - self.base_impulse } else { Wrench::zero() };
+        }
+        let moving = relation != Relation::Static;
         if m == 0 { -self.node_wrench[0] - mount.force(moving) } else { mount.reaction }
     }
 

@@ -8,6 +8,7 @@ mod alpha;
 mod begin;
 mod border;
 mod conserve;
+mod consistent;
 mod core;
 mod engine;
 mod factor;

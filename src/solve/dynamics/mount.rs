@@ -112,7 +112,7 @@ impl Mount {
     /// The derivative of that in a displacement of the section.
     pub(super) fn force_tangent(&self, relation: &Relation) -> Matrix6<f64> {
         let own = self.mass.map_or_else(Matrix6::zeros, |mass| relation.inertia_tangent(&mass, &self.rates));
-        if *relation == Relation::Held { own } else { own + self.load.tangent }
+        if relation.is_of_rates() { own } else { own + self.load.tangent }
     }
 
     /// The wrench before it from that after it.
@@ -139,20 +139,24 @@ impl Mount {
         self.corner.as_ref().map_or(*pose, |(corner, _)| *pose * *corner)
     }
 
-    /// What the support says of the section at a pose and of the wrench it applies. Where accelerations are sought, the displacement ζ stands for
-    /// a change of acceleration, and what is held says that its own acceleration vanishes.
+    /// What the support says of the section at a pose and of the wrench it applies. Where rates are sought, the displacement ζ stands for
+    /// a change of them, and what is held says that its own rate vanishes.
     pub(super) fn equations(&self, pose: &Pose, reaction: &Wrench, relation: &Relation) -> Equations {
         let (zero, one) = (Matrix6::zeros(), Matrix6::identity());
         if self.support.is_free() {
             return Equations { residual: reaction.to_vector(), from_zeta: zero, from_wrench: one };
         }
         let mut rows = self.support.linearised(pose, reaction, &none(), &self.support.held());
-        if *relation == Relation::Held {
-            let [_, _, seconds] = self.departure(pose);
+        if relation.is_of_rates() {
+            let [_, speeds, seconds] = self.departure(pose);
+            let impulse = *relation == Relation::Impulse;
             for (j, condition) in self.support.conditions().iter().enumerate() {
                 match condition {
-                    Condition::Fixed(_) => rows.residual[j] = seconds[j],
+                    Condition::Fixed(_) => rows.residual[j] = if impulse { speeds[j] } else { seconds[j] },
                     _ => rows.from_zeta.row_mut(j).fill(0.0),
+                }
+                if impulse && !matches!(condition, Condition::Fixed(_)) {
+                    rows.residual[j] = 0.0;
                 }
             }
         }

@@ -34,6 +34,9 @@ const HALVINGS: usize = 8;
 /// A step below this that no longer shrinks is rounding.
 const ROUNDING_STEP: f64 = 1e-9;
 
+/// So many steps below that are enough, however they go.
+const SMALL_STEPS: usize = 5;
+
 /// What Newton's method keeps from one solve to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Memory {
@@ -72,7 +75,7 @@ impl Newton<'_> {
     ) -> Result<(), Reason> {
         let mut renew = self.memory.factored != Some(core.problem.relation);
         let (mut previous, mut taken, mut halvings, mut fresh) = (f64::INFINITY, 0.0, 0, false);
-        let mut last = (0.0, 0.0);
+        let (mut last, mut small_steps) = ((0.0, 0.0), 0);
         for iteration in 0..self.max_iterations {
             core.move_to_strains();
             let request = if renew { Request::Tangent } else { Request::Wrench };
@@ -99,7 +102,9 @@ impl Newton<'_> {
             self.effort.iterations += 1;
             last = (step.size, step.s);
             let known = previous.is_finite();
-            let rounding = step.size < ROUNDING_STEP && step.size > 0.5 * previous;
+            small_steps += usize::from(step.size < ROUNDING_STEP);
+            let rounding =
+                step.size < ROUNDING_STEP && (step.size > 0.5 * previous || small_steps == SMALL_STEPS);
             if known && !rounding {
                 self.memory.rate = (step.size / previous).clamp(LEAST_RATE, 1.0);
                 if fresh && step.size > HOPELESS * previous {

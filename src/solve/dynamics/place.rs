@@ -10,6 +10,7 @@ use crate::load::LoadWrench;
 use crate::material::{Request, Response, Station};
 use crate::rod::Support;
 use crate::rod::joint::{Fixture, Joint};
+use crate::rod::support::Condition;
 use crate::section::CrossSection;
 
 /// Where on the rod.
@@ -118,6 +119,14 @@ impl<B: Movable> Scene<'_, B> {
         let places = self.places();
         let touched = places.iter().any(|place| !self.support(*place).is_free() || self.is_loaded(*place));
         self.actuators.is_empty() && !touched && !self.has_loads() && !damped
+    }
+
+    /// Whether supports beyond the base or fixed strains take freedoms of motion away from the sections.
+    pub(super) fn is_constrained(&self) -> bool {
+        let holds = |place: &Place| {
+            self.support(*place).conditions().iter().any(|c| matches!(c, Condition::Fixed(_)))
+        };
+        !self.rod.body().constraint().is_none() || self.places().iter().skip(1).any(holds)
     }
 
     fn is_loaded(&self, place: Place) -> bool {
