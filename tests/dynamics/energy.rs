@@ -89,23 +89,24 @@ fn momenta(frame: &Frame) -> [f64; 6] {
 }
 
 /// A rod thrown into space, spinning and bending, its energy and momenta kept by projection. The issue asks for 1e-8 per 1e4 steps and 1e-9;
-/// what is left is rounding of sums, some 1e-16 a step.
+/// what is left is rounding of sums, some 1e-16 a step. The whole run of 1e5 steps goes on as this part of it: see docs/decisions/030.
 #[test]
 fn a_free_rod_keeps_its_momenta_and_energy() {
     let rod = clamped(cylinder());
     let scene = Scene::new(&rod).with_free_base();
     let spin = Twist::from_array([3.0, 0.0, 5.0, 0.1, 0.0, 0.0]);
     let bent = |s: f64| 2.0 * (s / 0.4 * std::f64::consts::PI).sin().powi(2);
-    for (scheme, dt, steps) in
-        [(Scheme::Esdirk43, 2e-3, 2000), (Scheme::GeneralisedAlpha { rho: 0.9 }, 1e-3, 10_000)]
+    for (scheme, elements, dt, steps) in
+        [(Scheme::Esdirk43, 3, 2e-3, 1500), (Scheme::GeneralisedAlpha { rho: 0.9 }, 2, 1e-3, 20_000)]
     {
-        let dynamics = Dynamics { scheme, elements: 3, order: Order::Four, conserve: true, ..fixed(dt) };
+        let dynamics = Dynamics { scheme, elements, order: Order::Four, conserve: true, ..fixed(dt) };
         let start = Start::at_rest()
             .with_base_velocity(spin)
             .with_strain(move |s| Strain::from_array([0.0, bent(s), 0.0, 0.0, 0.0, 0.0]));
         let mut stepper = dynamics.start(&scene, &start).unwrap();
         let begin = stepper.frame().unwrap();
-        let (mut energy, mut momentum): (f64, f64) = (0.0, 0.0);
+        // largest departures in the first and in the second half
+        let (mut energy, mut momentum) = ([0.0_f64; 2], [0.0_f64; 2]);
         for step in 0..steps {
             stepper.step().unwrap();
             // the first hundred steps take away what they do not resolve, more than a step may be given back
@@ -113,15 +114,17 @@ fn a_free_rod_keeps_its_momenta_and_energy() {
                 let frame = stepper.frame().unwrap();
                 let change = frame.energies.total().unwrap() / begin.energies.total().unwrap() - 1.0;
                 let (a, b) = (momenta(&begin), momenta(&frame));
-                energy = energy.max(change.abs());
-                momentum = (0..6).map(|i| (a[i] - b[i]).abs()).fold(momentum, f64::max);
+                let half = usize::from(2 * step > steps);
+                energy[half] = energy[half].max(change.abs());
+                momentum[half] = (0..6).map(|i| (a[i] - b[i]).abs()).fold(momentum[half], f64::max);
             }
         }
-        println!("{scheme:?}: energy {energy:.1e}, momenta {momentum:.1e}");
-        assert!(
-            energy < 1e-11 && momentum < 1e-13,
-            "{scheme:?}: energy {energy:.1e}, momenta {momentum:.1e}"
-        );
+        println!("{scheme:?}: energy {energy:?}, momenta {momentum:?}");
+        for half in 0..2 {
+            assert!(energy[half] < 1e-11 && momentum[half] < 1e-12, "{scheme:?}: {energy:?} {momentum:?}");
+        }
+        // no trend but that of rounding
+        assert!(energy[1] < 4.0 * energy[0] + 1e-13, "{scheme:?}: {energy:?}");
     }
 }
 

@@ -11,4 +11,5 @@ mod orders;
 mod release;
 mod stability;
 mod stepping;
+mod swings;
 mod vibration;

@@ -2,25 +2,21 @@
 
 use super::core::Core;
 use super::failure::Reason;
-use super::march::{How, Made, March, begin_step};
+use super::march::{Attempt, March};
 use super::present::Present;
 use super::relation::{Offset, Relation};
-use super::scene::{Movable, Scene};
+use super::scene::Movable;
 use super::scheme::Alpha;
 use crate::lie::Twist;
 
 impl<const S: usize> March<S> {
     pub(super) fn alpha<B: Movable>(
         &mut self,
-        core: &mut Core<S>,
-        scene: &Scene<'_, B>,
-        present: &Present<S>,
-        h: f64,
+        attempt: &mut Attempt<'_, '_, B, S>,
         a: &Alpha,
-        how: &How,
-    ) -> Result<Made, Reason> {
-        let mut made = Made::default();
-        begin_step(core, present);
+    ) -> Result<(), Reason> {
+        let Attempt { core, scene, present, dt: h, .. } = attempt;
+        let (present, h) = (*present, *h);
         let (beta, gamma) = (a.beta, a.gamma);
         let velocity = gamma / (beta * h);
         let acceleration = (1.0 - a.alpha_m) / ((1.0 - a.alpha_f) * beta * h * h);
@@ -64,7 +60,8 @@ impl<const S: usize> March<S> {
                     };
             }
         }
-        self.solve(core, scene, present, how, &mut made)?;
+        self.solve(attempt)?;
+        let Attempt { core, how, made, .. } = attempt;
         made.power = core.power(how.track_work);
         let mut largest: f64 = 0.0;
         for (i, points) in present.points.iter().enumerate() {
@@ -77,7 +74,7 @@ impl<const S: usize> March<S> {
             }
         }
         made.error = largest;
-        Ok(made)
+        Ok(())
     }
 
     /// Mean rates of the last two steps.

@@ -5,6 +5,9 @@
 //! conditions allow, and with the accelerations and reactions of the balance at that instant. The steps go on from what they found themselves:
 //! with projected rates their poses were measured to be of order 2 instead of 3.
 //!
+//! The same gives the rates of strain, and the velocity, of a base that can move: where no section that the scheme integrates determines them, they are
+//! the least in the measure of elastic energy.
+//!
 //! Source: Hairer, Lubich and Roche (1989), *The Numerical Solution of Differential-Algebraic Systems by Runge–Kutta Methods*, ch. 6; Lubich
 //! (1991), Impact Comput. Sci. Eng. 3, 32, for projection.
 

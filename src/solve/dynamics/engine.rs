@@ -5,7 +5,7 @@ use super::core::Core;
 use super::failure::{Failure, Reason};
 use super::frame::Frame;
 use super::grid::Grid;
-use super::march::{How, Made, March};
+use super::march::{Attempt, How, Made, March};
 use super::options::{Adaptive, Dynamics, Step};
 use super::present::Present;
 use super::relation::Relation;
@@ -127,7 +127,14 @@ impl<'s, 'r, B: Movable, const S: usize> Run<'s, 'r, B, S> {
     }
 
     fn attempt(&mut self, dt: f64) -> Result<Made, Reason> {
-        self.march.attempt(&mut self.core, self.scene, &self.present, dt, &self.how)
+        self.march.attempt(Attempt {
+            core: &mut self.core,
+            scene: self.scene,
+            present: &self.present,
+            dt,
+            how: &self.how,
+            made: Made::default(),
+        })
     }
 
     fn accept(&mut self, dt: f64, made: &Made) {
@@ -148,7 +155,9 @@ impl<'s, 'r, B: Movable, const S: usize> Run<'s, 'r, B, S> {
     /// The present, described: after a step of ESDIRK with rates that are consistent with what is held.
     fn describe(&mut self) -> Result<Frame, Error> {
         let step = self.march.last_step;
-        if step > 0.0 && self.how.scheme == Scheme::Esdirk43 && self.scene.is_constrained() {
+        // a base that can move has rates of its own that no stage has; what conserves has its velocities from there
+        let refined = self.scene.is_constrained() || (self.core.loose && self.kept.is_none());
+        if step > 0.0 && self.how.scheme == Scheme::Esdirk43 && refined {
             let mut consistent = self.present.clone();
             consistent.make_consistent(&mut self.core, self.scene, step)?;
             return consistent.describe(&mut self.core, self.scene);

@@ -45,6 +45,16 @@ pub(super) struct Made {
     pub(super) power: [f64; 2],
 }
 
+/// A step that is tried: from the present, over dt, in memory that shows what was found.
+pub(super) struct Attempt<'a, 'r, B, const S: usize> {
+    pub(super) core: &'a mut Core<S>,
+    pub(super) scene: &'a Scene<'r, B>,
+    pub(super) present: &'a Present<S>,
+    pub(super) dt: f64,
+    pub(super) how: &'a How,
+    pub(super) made: Made,
+}
+
 impl<const S: usize> March<S> {
     pub(super) fn new(elements: usize, mounts: usize) -> Self {
         let zero = Twist::zero();
@@ -63,19 +73,14 @@ impl<const S: usize> March<S> {
         }
     }
 
-    /// Finds the state after a step of length dt, in `core`.
-    pub(super) fn attempt<B: Movable>(
-        &mut self,
-        core: &mut Core<S>,
-        scene: &Scene<'_, B>,
-        present: &Present<S>,
-        dt: f64,
-        how: &How,
-    ) -> Result<Made, Reason> {
-        match how.scheme {
-            Scheme::Esdirk43 => self.runge_kutta(core, scene, present, dt, how),
-            Scheme::GeneralisedAlpha { rho } => self.alpha(core, scene, present, dt, &Alpha::new(rho), how),
+    /// Finds the state after a step, in the core of the attempt.
+    pub(super) fn attempt<B: Movable>(&mut self, mut attempt: Attempt<'_, '_, B, S>) -> Result<Made, Reason> {
+        begin_step(attempt.core, attempt.present);
+        match attempt.how.scheme {
+            Scheme::Esdirk43 => self.runge_kutta(&mut attempt)?,
+            Scheme::GeneralisedAlpha { rho } => self.alpha(&mut attempt, &Alpha::new(rho))?,
         }
+        Ok(attempt.made)
     }
 
     /// Makes what was found the present.
@@ -101,15 +106,9 @@ impl<const S: usize> March<S> {
         self.last_step = dt;
     }
 
-    /// Solves for an instant from the guess in `core`; if that fails, from the strains the step began with.
-    pub(super) fn solve<B: Movable>(
-        &mut self,
-        core: &mut Core<S>,
-        scene: &Scene<'_, B>,
-        present: &Present<S>,
-        how: &How,
-        made: &mut Made,
-    ) -> Result<(), Reason> {
+    /// Solves for an instant from the guess in the core; if that fails, from the strains the step began with.
+    pub(super) fn solve<B: Movable>(&mut self, attempt: &mut Attempt<'_, '_, B, S>) -> Result<(), Reason> {
+        let Attempt { core, scene, present, how, made, .. } = attempt;
         let (memory, effort) = (&mut self.memory, &mut made.effort);
         let mut newton =
             Newton { tolerance: how.tolerance, max_iterations: how.max_iterations, memory, effort };
@@ -144,7 +143,7 @@ impl<const S: usize> March<S> {
 }
 
 /// Puts the beginning of a step into the constants of its solves.
-pub(super) fn begin_step<const S: usize>(core: &mut Core<S>, present: &Present<S>) {
+fn begin_step<const S: usize>(core: &mut Core<S>, present: &Present<S>) {
     core.problem.stiffness = 1.0;
     for (mount, motion) in core.mounts.iter_mut().zip(&present.mounts) {
         mount.pose_before = motion.pose;

@@ -10,9 +10,9 @@ use super::scene::{Movable, Scene};
 use crate::error::Result;
 use crate::lie::{Pose, Twist, TwistMap, Wrench, so3};
 use crate::load::LoadWrench;
-use crate::rod::Support;
 use crate::rod::adjoint::brought;
 use crate::rod::support::{Condition, Equations};
+use crate::rod::{Freedom, Support};
 
 /// What acts on one section, and how the section moves.
 pub(super) struct Mount {
@@ -146,21 +146,25 @@ impl Mount {
         if self.support.is_free() {
             return Equations { residual: reaction.to_vector(), from_zeta: zero, from_wrench: one };
         }
-        let mut rows = self.support.linearised(pose, reaction, &none(), &self.support.held());
+        let impulse = *relation == Relation::Impulse;
+        // a spring gives no impulse
+        let support = if impulse { self.without_springs() } else { self.support };
+        let mut rows = support.linearised(pose, reaction, &none(), &support.held());
         if relation.is_of_rates() {
             let [_, speeds, seconds] = self.departure(pose);
-            let impulse = *relation == Relation::Impulse;
-            for (j, condition) in self.support.conditions().iter().enumerate() {
+            for (j, condition) in support.conditions().iter().enumerate() {
                 match condition {
                     Condition::Fixed(_) => rows.residual[j] = if impulse { speeds[j] } else { seconds[j] },
                     _ => rows.from_zeta.row_mut(j).fill(0.0),
                 }
-                if impulse && !matches!(condition, Condition::Fixed(_)) {
-                    rows.residual[j] = 0.0;
-                }
             }
         }
         rows
+    }
+
+    fn without_springs(&self) -> Support {
+        let sprung = |freedom: &Freedom| matches!(self.support.condition(*freedom), Condition::Spring { .. });
+        self.support.releasing(Freedom::ALL.into_iter().filter(sprung))
     }
 
     /// The coordinates of the section against its support, less what is held, and their first and second derivatives in time.

@@ -2,24 +2,19 @@
 
 use super::core::Core;
 use super::failure::Reason;
-use super::march::{How, Made, March, begin_step};
+use super::march::{Attempt, March};
 use super::present::Present;
 use super::relation::{Offset, Relation};
-use super::scene::{Movable, Scene};
+use super::scene::Movable;
 use super::scheme::{A, B as WEIGHTS, B_EMBEDDED, C, GAMMA, STAGES};
 use crate::lie::{Strain, Twist};
 
 impl<const S: usize> March<S> {
     pub(super) fn runge_kutta<B: Movable>(
         &mut self,
-        core: &mut Core<S>,
-        scene: &Scene<'_, B>,
-        present: &Present<S>,
-        dt: f64,
-        how: &How,
-    ) -> Result<Made, Reason> {
-        let mut made = Made::default();
-        begin_step(core, present);
+        attempt: &mut Attempt<'_, '_, B, S>,
+    ) -> Result<(), Reason> {
+        let (present, dt) = (attempt.present, attempt.dt);
         let first = &mut self.slopes[0];
         for (slopes, m) in first.mounts.iter_mut().zip(&present.mounts) {
             *slopes = [m.velocity, m.acceleration];
@@ -28,12 +23,14 @@ impl<const S: usize> March<S> {
         for (slopes, points) in first.points.iter_mut().zip(&present.points) {
             *slopes = points.map(|p| (p.velocity, p.acceleration, p.strain_rate));
         }
-        core.problem.relation = Relation::RungeKutta { c: 1.0 / (GAMMA * dt) };
+        attempt.core.problem.relation = Relation::RungeKutta { c: 1.0 / (GAMMA * dt) };
         for stage in 1..STAGES {
+            let core = &mut *attempt.core;
             self.set_offsets(core, present, stage, dt);
-            core.at_time(scene, present.time + C[stage] * dt).map_err(Reason::Inadmissible)?;
+            core.at_time(attempt.scene, present.time + C[stage] * dt).map_err(Reason::Inadmissible)?;
             self.guess(core, present, stage, dt);
-            self.solve(core, scene, present, how, &mut made)?;
+            self.solve(attempt)?;
+            let core = &*attempt.core;
             let slopes = &mut self.slopes[stage];
             for (slopes, mount) in slopes.mounts.iter_mut().zip(&core.mounts) {
                 *slopes = [mount.rates.slope, mount.rates.acceleration];
@@ -44,11 +41,11 @@ impl<const S: usize> March<S> {
                     slopes.points[i][k] = (rates.slope, rates.acceleration, core.strain_rate[i][k]);
                 }
             }
-            slopes.power = core.power(how.track_work);
+            slopes.power = core.power(attempt.how.track_work);
         }
-        made.error = self.estimate(core.grid.length, dt);
-        made.power = self.slopes[STAGES - 1].power;
-        Ok(made)
+        attempt.made.error = self.estimate(attempt.core.grid.length, dt);
+        attempt.made.power = self.slopes[STAGES - 1].power;
+        Ok(())
     }
 
     /// What the next step wants to know of an accepted one.
