@@ -17,11 +17,13 @@ use crate::lie::{Pose, so3::hat};
 ///
 /// ```
 /// use hyperrod::load::Payload;
-/// use nalgebra::vector;
+/// use nalgebra::{Matrix3, vector};
 /// # fn main() -> hyperrod::Result<()> {
 /// // 50 g, 4 cm beyond the tip
 /// let tool = Payload::new(0.050)?.with_centre(vector![0.0, 0.0, 0.04])?;
-/// # let _ = tool; Ok(()) }
+/// // in motion: a ball of 2 cm, 2/5 M r² about its centre
+/// let ball = tool.with_inertia(Matrix3::identity() * 0.4 * 0.050 * 0.02 * 0.02)?;
+/// # let _ = ball; Ok(()) }
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Payload {

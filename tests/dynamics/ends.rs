@@ -4,12 +4,13 @@ use crate::cases::{Beam, beam, circle};
 use crate::oracle::{self, Timoshenko};
 
 use hyperrod::body::Constraint;
-use hyperrod::load::Payload;
+use hyperrod::load::{Gravity, Payload};
 use hyperrod::rod::{Freedom, Support};
 
 use hyperrod::solve::dynamics::{Dynamics, Mode, Scene, Start};
 use hyperrod::{Pose, Rod};
 use nalgebra::{Matrix2x4, Matrix3, vector};
+use std::f64::consts::PI;
 
 /// Two conditions on (u, θ, m, n) at an end, at a circular frequency.
 type Condition = dyn Fn(f64) -> Matrix2x4<f64>;
@@ -141,4 +142,25 @@ fn fixed_strains_leave_the_frequencies_of_euler_and_bernoulli_with_rotary_inerti
         (&oracle::pinned, &oracle::pinned),
         "kirchhoff pinned-pinned",
     );
+}
+
+/// Oracle: a rigid pendulum, ω² = M g l / I: a stiff rod that hangs on a hinge, its stiffness but that of its weight being far above.
+#[test]
+fn a_stiff_rod_on_a_hinge_has_the_frequency_of_a_pendulum() {
+    let hanging = Pose::new(hyperrod::lie::so3::exp(&vector![0.0, PI, 0.0]), vector![0.0, 0.0, 0.0]);
+    let hinge = Support::pinned(hanging).holding(Freedom::RotationX, 0.0).unwrap();
+    let hinge = hinge.holding(Freedom::RotationZ, 0.0).unwrap();
+    let (radius, length, heavy) = (0.01, 0.5, 0.3);
+    let body = beam(length, circle(radius), [5e12, 2e12, 1000.0]);
+    let rod = Rod::between(body, hinge, Support::free())
+        .with_load(Gravity::standard())
+        .with_tip_load(Payload::new(heavy).unwrap());
+    let mass = 1000.0 * PI * radius * radius * length;
+    let inertia = mass * (length * length / 3.0 + 0.25 * radius * radius) + heavy * length * length;
+    let omega = (9.80665 * (0.5 * mass + heavy) * length / inertia).sqrt();
+    let dynamics = Dynamics { elements: 3, ..Dynamics::default() };
+    let found = dynamics.modes(&Scene::new(&rod), &Start::at_rest().with_base(hanging), 1).unwrap();
+    // it bends by M g l²/EI, some 1e-6
+    let error = found[0].angular_frequency() / omega - 1.0;
+    assert!(error.abs() < 1e-5, "{error:.1e}");
 }

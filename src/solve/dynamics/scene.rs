@@ -100,6 +100,29 @@ impl<'r, B: Movable> Scene<'r, B> {
 
     /// The same with a load at s, multiplied by a function of time in s: there the mesh has a node, and the internal wrench jumps.
     ///
+    /// ```
+    /// use hyperrod::load::{DeadWrench, Payload};
+    /// use hyperrod::rod::{Freedom, Support};
+    /// use hyperrod::section::Stiffness;
+    /// use hyperrod::solve::dynamics::{Dynamics, Scene, Start};
+    /// use hyperrod::{Body, Pose, Rod};
+    /// use nalgebra::{Matrix3, vector};
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let body = Body::new(0.3, Stiffness::diagonal([4e-3, 4e-3, 3e-3, 50.0, 50.0, 150.0])?)?.with_mass_per_length(0.3)?;
+    /// let far = Pose::new(Matrix3::identity(), vector![0.0, 0.0, 0.3]);
+    /// // clamped, and on a ball joint that slides along Z; 5 g on the way
+    /// let slide = Support::pinned(far).releasing([Freedom::Z]);
+    /// let rod = Rod::between(body, Support::clamped(Pose::identity()), slide)
+    ///     .with_point_load(0.2, Payload::new(0.005)?.with_gravity(vector![0.0, 0.0, 0.0])?)?;
+    /// let tap = DeadWrench::force(vector![1.0, 0.0, 0.0])?; // N, for 5 ms
+    /// let scene = Scene::new(&rod).with_point_load(0.1, tap, |t| if t < 5e-3 { 1.0 } else { 0.0 })?;
+    /// let frame = Dynamics::default().run(&scene, &Start::at_rest(), 0.02, |_| ())?;
+    /// assert!(frame.nodes.iter().any(|node| node.pose.position.x.abs() > 1e-3));
+    /// assert!(frame.tip().pose.position.xy().norm() < 1e-12);
+    /// # Ok(()) }
+    /// ```
+    ///
     /// # Errors
     /// If s does not lie inside (0, L).
     pub fn with_point_load(
