@@ -11,6 +11,7 @@ mod describe;
 pub mod dynamics;
 mod equilibrium;
 mod estimate;
+mod extremes;
 mod failure;
 mod globalise;
 mod linear;
@@ -28,6 +29,7 @@ mod tendon_length;
 mod unknowns;
 mod workspace;
 
+pub use extremes::{RodExtremes, RodPoint};
 pub use failure::{Failure, Reason};
 pub use path::{Buckling, EquilibriumPath, PathEnd, PathEvent, PathEventKind, PathOptions, PathState};
 pub use report::{ErrorEstimate, Iteration, Report, Rung, Stability};
