@@ -33,7 +33,7 @@ const SAFETY: f64 = 2.0;
 const SAFETY_OF_ONE: f64 = 16.0;
 
 /// An element is cut into at most this many pieces at a time: further the prediction does not reach.
-const MOST_PARTS: f64 = 6.0;
+const MOST_PARTS: f64 = 7.0;
 
 /// As [`MOST_PARTS`], of the first mesh, whose error is only guessed.
 const FIRST_PARTS: f64 = 4.0;
@@ -101,7 +101,9 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
             // a difference of (2^p − 1) errors of the finer one
             let factor = 1.0 / (4.0_f64.powi(S as i32) - 1.0);
             let length = self.rod.body().length();
-            self.report.error = difference(coarse, fine, parts.into_iter(), length).scaled(factor);
+            self.report.error = difference(coarse, fine, parts.into_iter(), length)
+                .scaled(factor)
+                .at_least(self.rounding(mesh.elements()), length);
         }
         let answer = self.answer(&mesh, &fine, None);
         for outcome in [coarse, fine] {
@@ -131,7 +133,8 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
             self.newton.stop =
                 Stop::Error((NEWTON_SHARE * predicted.max(accuracy)).clamp(1e-18, FIRST_NEWTON));
             let fine = self.level(mesh, start)?;
-            self.report.error = estimate(&level, &fine, &parts, length);
+            self.report.error =
+                estimate(&level, &fine, &parts, length).at_least(self.rounding(fine.mesh.elements()), length);
             let estimated = self.report.error.relative(length);
             if estimated <= accuracy {
                 let answer = self.answer(&fine.mesh, &fine.outcome, Some(&fine.defect.ends));
@@ -160,6 +163,12 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         let reason = Reason::Accuracy { asked: accuracy, estimated, elements };
         let last = self.answer(&level.mesh, &level.outcome, Some(&level.defect.ends)).ok();
         Err(Box::new(Failure { reason, report: self.report.clone(), last }))
+    }
+
+    /// What rounding alone leaves: poses are products along the mesh, whose errors of ε each add up as a random walk; wrenches are known to ε of the
+    /// largest, which Newton's method makes [`amplification`](Newton::amplification) times as much of.
+    fn rounding(&self, elements: usize) -> f64 {
+        f64::EPSILON * ((elements as f64).sqrt() + self.newton.amplification)
     }
 
     /// Refuses a rod that nothing holds.
