@@ -32,6 +32,15 @@ impl ErrorEstimate {
         (self.position / length).max(self.rotation).max(self.wrench)
     }
 
+    /// Nothing smaller than `floor`, as [`relative`](Self::relative) has it.
+    pub(super) fn at_least(&self, floor: f64, length: f64) -> Self {
+        Self {
+            position: self.position.max(floor * length),
+            rotation: self.rotation.max(floor),
+            wrench: self.wrench.max(floor),
+        }
+    }
+
     pub(super) fn scaled(&self, factor: f64) -> Self {
         Self {
             position: self.position * factor,
