@@ -35,6 +35,11 @@
 //! |---|---|
 //! | damp it | [`with_viscosity`](crate::Body::with_viscosity): Kelvin and Voigt's, in Pa s |
 //! | move the clamp | [`with_base_motion`](crate::solve::dynamics::Scene::with_base_motion): a pose as a function of time |
+//! | move the tip, or a support between | [`with_tip_motion`](crate::solve::dynamics::Scene::with_tip_motion), [`with_support_motion`](crate::solve::dynamics::Scene::with_support_motion) |
+//! | hang it on a hinge, hold both ends | [`Rod::between`](crate::Rod::between), as at rest |
+//! | push it at s | [`with_point_load`](crate::solve::dynamics::Scene::with_point_load) |
+//! | hang a body on it | a [`Payload`](crate::load::Payload): in motion it has inertia |
+//! | leave out shear and extension | [`with_constraint`](crate::Body::with_constraint), as at rest |
 //! | let it fly | [`with_free_base`](crate::solve::dynamics::Scene::with_free_base) |
 //! | let the step follow an error | [`Step::Adaptive`](crate::solve::dynamics::Step::Adaptive) |
 //! | stop, save and go on later | [`Stepper`](crate::solve::dynamics::Stepper), its `state()` (serde), `resume` |
