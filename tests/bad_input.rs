@@ -281,6 +281,10 @@ fn a_solve_out_of_iterations_hands_back_its_last_state() {
     assert!(!seen.is_empty() && steps(&seen).iter().all(|step| reported.contains(step)));
     assert!(seen.iter().any(|iteration| iteration.step == step), "one of the rungs ended with {step}");
     says(&failure, &["1 iterations", &format!("{step:.3e}"), &format!("{tolerance:.1e}")]);
+    assert!(failure.report.rungs.len() > 1);
+    for rung in &failure.report.rungs {
+        says(&failure, &[&rung.to_string()]);
+    }
     let last = failure.last.unwrap();
     assert!(last.tip().pose.position.x > 0.0, "it had begun to bend");
     assert!(last.nodes().len() >= 5, "the coarse mesh, or a finer one");

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{Report, Stability, StaticSolution};
+use super::{Report, Rung, Stability, StaticSolution};
 use crate::error::Error;
 
 /// Why a solve ended without an answer.
@@ -68,9 +68,9 @@ pub enum Reason {
         /// How many solves were made.
         solves: usize,
     },
-    /// The iteration limit was reached.
+    /// The iteration limit was reached, by the last of the ways that were tried.
     #[error(
-        "no convergence in {limit} iterations: last step {step:.3e}, asked {tolerance:.1e}; apply the load in steps, or raise the limit"
+        "no convergence in {limit} iterations: last step {step:.3e}, asked {tolerance:.1e}; look at a smaller load or tension, or raise the limit if the steps were still falling"
     )]
     IterationLimit {
         /// The limit.
@@ -84,9 +84,9 @@ pub enum Reason {
 
 /// A solve that failed: why, how it went, and the last state it had.
 ///
-/// Its `Debug` form, which a `main` that returns it prints, is short: the reason and the number of iterations.
+/// Its `Debug` form, which a `main` that returns it prints, is short: the reason, what was tried and the number of iterations.
 #[derive(Clone, PartialEq, Error)]
-#[error("static solve failed: {reason}")]
+#[error("static solve failed: {reason}{}", tried(.report))]
 pub struct Failure {
     /// Why.
     #[source]
@@ -95,6 +95,15 @@ pub struct Failure {
     pub report: Report,
     /// The last admissible state, not an equilibrium; `None` if there was none.
     pub last: Option<StaticSolution>,
+}
+
+/// What was tried, where that was more than Newton's method.
+fn tried(report: &Report) -> String {
+    if report.rungs.iter().all(|rung| *rung == Rung::Newton) {
+        return String::new();
+    }
+    let rungs: Vec<String> = report.rungs.iter().map(Rung::to_string).collect();
+    format!(" (tried: {})", rungs.join(", "))
 }
 
 impl std::fmt::Debug for Failure {
