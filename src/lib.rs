@@ -174,6 +174,7 @@
 //! # What is not there yet
 //!
 //! * Dynamics with supports other than a clamp that may move or a free base, with joints, or with fixed strains: refused by name.
+//! * The inertia of a [`Payload`](load::Payload) in motion: it is a weight alone.
 //! * Rods joined to rods; contact; gradients of a solve in its parameters.
 //! * Thin-walled and re-entrant sections that relax: polynomials serve them poorly.
 

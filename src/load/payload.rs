@@ -13,6 +13,9 @@ use crate::lie::{Pose, so3::hat};
 /// n = M R^{\mathsf T} g, \qquad m = r \times n, \qquad V = -M g \cdot (p + R r) .
 /// ```
 ///
+/// It is a load, and brings no inertia: exact at rest, but a rod in [motion](crate::solve::dynamics) swings as if the body at its tip had a
+/// weight and no mass.
+///
 /// ```
 /// use hyperrod::load::Payload;
 /// use nalgebra::vector;
