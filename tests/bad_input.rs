@@ -285,6 +285,10 @@ fn a_solve_out_of_iterations_hands_back_its_last_state() {
     assert!(seen.len() > 2 && seen.iter().all(|iteration| iteration.residual.is_finite()));
     assert_eq!(seen[1].step, step);
     says(&failure, &["2 iterations", &format!("{step:.3e}"), &format!("{tolerance:.1e}")]);
+    assert!(failure.report.rungs.len() > 1);
+    for rung in &failure.report.rungs {
+        says(&failure, &[&rung.to_string()]);
+    }
     let last = failure.last.unwrap();
     assert!(last.tip().pose.position.x > 0.1, "it had begun to bend");
     assert_eq!(last.nodes().len(), 5, "the coarse mesh");

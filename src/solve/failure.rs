@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{Report, Stability, StaticSolution};
+use super::{Report, Rung, Stability, StaticSolution};
 use crate::error::Error;
 
 /// Why a solve ended without an answer.
@@ -92,9 +92,9 @@ pub enum Reason {
 
 /// A solve that failed: why, how it went, and the last state it had.
 ///
-/// Its `Debug` form, which a `main` that returns it prints, is short: the reason and the number of iterations.
+/// Its `Debug` form, which a `main` that returns it prints, is short: the reason, what was tried and the number of iterations.
 #[derive(Clone, PartialEq, Error)]
-#[error("static solve failed: {reason}")]
+#[error("static solve failed: {reason}{}", tried(.report))]
 pub struct Failure {
     /// Why.
     #[source]
@@ -103,6 +103,15 @@ pub struct Failure {
     pub report: Report,
     /// The last admissible state, an equilibrium where the reason says so; `None` if there was none.
     pub last: Option<StaticSolution>,
+}
+
+/// What was tried, where that was more than Newton's method.
+fn tried(report: &Report) -> String {
+    if report.rungs.iter().all(|rung| *rung == Rung::Newton) {
+        return String::new();
+    }
+    let rungs: Vec<String> = report.rungs.iter().map(Rung::to_string).collect();
+    format!(" (tried: {})", rungs.join(", "))
 }
 
 impl std::fmt::Debug for Failure {

@@ -65,6 +65,17 @@ pub enum Rung {
     ArcLength,
 }
 
+impl std::fmt::Display for Rung {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Newton => "Newton's method",
+            Self::Regularised => "a regularised Newton's method",
+            Self::LoadSteps => "load steps",
+            Self::ArcLength => "arc length",
+        })
+    }
+}
+
 /// Whether an equilibrium would stay.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
