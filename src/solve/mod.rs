@@ -23,6 +23,7 @@ mod scale;
 mod solution;
 mod stability;
 mod statics;
+mod suggest;
 mod sweep;
 mod tendon_length;
 mod unknowns;
@@ -33,5 +34,6 @@ pub use path::{Buckling, EquilibriumPath, PathEnd, PathEvent, PathEventKind, Pat
 pub use report::{ErrorEstimate, Iteration, Report, Rung, Stability};
 pub use solution::{Node, StaticSolution};
 pub use statics::{Order, Statics};
+pub use suggest::{LeftOut, ModelError, ModelLadder, ModelRung, Suggestion, suggest};
 pub use tendon_length::TendonSolution;
 pub use workspace::Workspace;
