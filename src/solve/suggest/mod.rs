@@ -12,7 +12,7 @@ use crate::material::Station;
 use crate::rod::Rod;
 use crate::section::CrossSection;
 
-use model::{Model, SectionModel};
+use model::{AtRest, Model, SectionModel};
 use solved::Solved;
 pub use suggestion::{LeftOut, ModelError, ModelRung, Suggestion};
 
@@ -137,7 +137,7 @@ impl<'r, B: Elastic> ModelLadder<'r, B> {
         }
         let mut solved = Solved::to(self.rod, tolerance)?;
         let mut rungs = Vec::new();
-        for (name, section) in self.section_models() {
+        for (name, section) in self.section_models(solved.at_rest()?) {
             for (strains, constraint) in STRAINS {
                 let constraint = constraint.and(self.rod.body().constraint());
                 let own = matches!(section, SectionModel::Own);
@@ -163,8 +163,8 @@ impl<'r, B: Elastic> ModelLadder<'r, B> {
     }
 
     /// Names and models of the sections, cheapest first.
-    fn section_models(&self) -> Vec<(String, SectionModel<'_>)> {
-        let mut models = vec![("linear law".to_string(), SectionModel::Linear)];
+    fn section_models(&self, at_rest: AtRest) -> Vec<(String, SectionModel<'_>)> {
+        let mut models = vec![("linear law".to_string(), SectionModel::Linear(at_rest))];
         models.extend(self.sections.iter().map(|(name, s)| (name.clone(), SectionModel::Other(s.as_ref()))));
         models.push(("own section".to_string(), SectionModel::Own));
         models

@@ -8,9 +8,31 @@ use crate::solve::describe::strain_correction;
 /// What a rung has for a section.
 pub(super) enum SectionModel<'a> {
     /// Ψ(0) + K(0) Δξ of the scene's own.
-    Linear,
+    Linear(AtRest),
     Other(&'a dyn CrossSection),
     Own,
+}
+
+/// What a body answers to Δξ = 0 at some places.
+pub(super) struct AtRest {
+    places: Vec<f64>,
+    responses: Vec<Response>,
+}
+
+impl AtRest {
+    pub(super) fn of(body: &dyn Elastic, places: Vec<f64>) -> Result<Self> {
+        let rest = |s: &f64| body.respond(*s, &Strain::zero(), Request::Tangent);
+        let responses: Result<Vec<_>> = places.iter().map(rest).collect();
+        Ok(Self { responses: responses?, places })
+    }
+
+    /// Ψ(0) + K(0) Δξ with its tangent, at the place next to s.
+    fn linear(&self, s: f64, strain: &Strain) -> Response {
+        let next = self.places.partition_point(|place| *place < s).min(self.responses.len() - 1);
+        let mut response = self.responses[next].clone();
+        response.wrench += Wrench::from_vector(&(response.tangent * strain.to_vector()));
+        response
+    }
 }
 
 /// The body of a rung: that of the scene with another section, and fewer strains.
@@ -35,11 +57,7 @@ impl Elastic for Model<'_> {
             SectionModel::Other(section) => {
                 section.respond(&Station { s, reference: self.body.reference(s) }, strain, request)
             }
-            SectionModel::Linear => {
-                let mut at_rest = self.body.respond(s, &Strain::zero(), Request::Tangent)?;
-                at_rest.wrench += Wrench::from_vector(&(at_rest.tangent * strain.to_vector()));
-                Ok(at_rest)
-            }
+            SectionModel::Linear(at_rest) => Ok(at_rest.linear(s, strain)),
         }
     }
 
@@ -51,26 +69,23 @@ impl Elastic for Model<'_> {
 impl Model<'_> {
     /// The strain with which the section carries a wrench, from the strain of another; `None` where none is found.
     pub(super) fn strain_of(&self, s: f64, wrench: &Wrench, near: &Strain) -> Option<Strain> {
-        /// Relative to the strain: the estimate has no more digits.
-        const ENOUGH: f64 = 1e-6;
-        let length = self.length();
-        let size = |x: &Strain| x.linear.norm() + x.angular.norm() * length;
-        let fixed = self.constraint.fixed();
-        let free = near.to_array();
-        let mut strain = Strain::from_array(std::array::from_fn(|i| if fixed[i] { 0.0 } else { free[i] }));
-        for _ in 0..30 {
-            let full = strain_correction(self, s, wrench, &strain)?;
-            let (mut step, mut shortened) = (full, 0);
-            // a strain that the law does not admit is too far
-            while self.respond(s, &(strain + step), Request::Energy).is_err() {
-                if shortened == 8 {
-                    return None;
-                }
-                (step, shortened) = (step * 0.5, shortened + 1);
+        /// Of a step, relative to the strain: what it leaves is of the size of its square, and the estimate has fewer digits.
+        const ENOUGH: f64 = 1e-5;
+        const ITERATIONS: usize = 30;
+        let size = |x: &Strain| x.linear.norm() + x.angular.norm() * self.length();
+        let (fixed, free) = (self.constraint.fixed(), near.to_array());
+        let start = std::array::from_fn(|i| if fixed[i] { 0.0 } else { free[i] });
+        let mut strain = Strain::from_array(start);
+        let mut step = strain_correction(self, s, wrench, &strain)?;
+        for _ in 0..ITERATIONS {
+            let moved = strain + step;
+            if size(&step) <= ENOUGH * size(&moved) {
+                return Some(moved);
             }
-            strain += step;
-            if shortened == 0 && size(&step) <= ENOUGH * size(&strain) {
-                return Some(strain);
+            // a strain that the law does not admit is too far
+            match strain_correction(self, s, wrench, &moved) {
+                Some(next) => (strain, step) = (moved, next),
+                None => step = step * 0.5,
             }
         }
         None

@@ -1,4 +1,4 @@
-use super::model::Model;
+use super::model::{AtRest, Model};
 use super::suggestion::{LeftOut, ModelError};
 use crate::body::Elastic;
 use crate::lie::Wrench;
@@ -8,6 +8,7 @@ use crate::solve::failure::{Failure, Reason};
 use crate::solve::linear::Buffers;
 use crate::solve::mesh::Mesh;
 use crate::solve::newton;
+use crate::solve::report::Report;
 use crate::solve::solution::StaticSolution;
 use crate::solve::statics::{Order, Statics};
 use crate::solve::unknowns::Unknowns;
@@ -90,6 +91,14 @@ impl<'r, B: Elastic> Solved<'r, B> {
     /// Of positions / L and of rotations.
     pub(super) fn mesh_error(&self) -> f64 {
         self.mesh_error
+    }
+
+    /// The sections at their reference strain, at the stages.
+    pub(super) fn at_rest(&self) -> Result<AtRest, Box<Failure>> {
+        let places = self.mesh.stage_places(0..self.mesh.elements()).as_flattened().to_vec();
+        AtRest::of(self.mesh.rod.body(), places).map_err(|error| {
+            Box::new(Failure { reason: Reason::Start(error), report: Report::default(), last: None })
+        })
     }
 
     /// What a simpler model does to the answer, to first order, and the work it leaves out.

@@ -77,7 +77,6 @@ pub struct ModelRung {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Suggestion {
     rungs: Vec<ModelRung>,
-    chosen: usize,
     tolerance: f64,
     length: f64,
     mesh_error: f64,
@@ -85,15 +84,23 @@ pub struct Suggestion {
 
 impl Suggestion {
     pub(super) fn new(rungs: Vec<ModelRung>, tolerance: f64, length: f64, mesh_error: f64) -> Self {
-        let good = |rung: &ModelRung| rung.error.size(length) <= tolerance;
-        // the scene as it is comes last, without an error
-        let chosen = rungs.iter().position(good).unwrap_or(rungs.len().saturating_sub(1));
-        Self { rungs, chosen, tolerance, length, mesh_error }
+        Self { rungs, tolerance, length, mesh_error }
     }
 
     /// The cheapest rung whose estimated error is below the tolerance. The scene as it is always is one.
     pub fn chosen(&self) -> &ModelRung {
-        &self.rungs[self.chosen]
+        self.cheapest(self.tolerance)
+    }
+
+    /// The same for another tolerance, not below the one that was asked for: the mesh was not made for that.
+    pub fn cheapest(&self, tolerance: f64) -> &ModelRung {
+        &self.rungs[self.place(tolerance)]
+    }
+
+    fn place(&self, tolerance: f64) -> usize {
+        let good = |rung: &ModelRung| rung.error.size(self.length) <= tolerance;
+        // the scene as it is comes last, without an error
+        self.rungs.iter().position(good).unwrap_or(self.rungs.len().saturating_sub(1))
     }
 
     /// All rungs, cheapest first.
@@ -115,10 +122,16 @@ impl Suggestion {
 impl fmt::Display for Suggestion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "modelling error allowed: {:.1e} of the length, and in rad", self.tolerance)?;
+        let chosen = self.place(self.tolerance);
+        let width = self.rungs.iter().map(|rung| rung.section.chars().count()).max().unwrap_or(0);
         for (i, rung) in self.rungs.iter().enumerate() {
-            let (mark, error) = (if i == self.chosen { "→" } else { " " }, rung.error.size(self.length));
+            let (mark, error) = (if i == chosen { "→" } else { " " }, rung.error.size(self.length));
             let error = if error.is_finite() { format!("{error:.1e}") } else { "none found".into() };
-            write!(f, "{mark} {:<14} {:<22}{} {error:>11}  ", rung.section, rung.strains, rung.unknowns)?;
+            write!(
+                f,
+                "{mark} {:<width$}  {:<20}  {} {error:>11}  ",
+                rung.section, rung.strains, rung.unknowns
+            )?;
             match (&rung.left_out, rung.error.size(self.length).is_finite()) {
                 (Some(left_out), _) => writeln!(f, "{left_out}")?,
                 (None, true) => writeln!(f, "leaves nothing out")?,
