@@ -4,7 +4,8 @@
 //! the richest bases.
 //!
 //! Oracles: closed forms (E·A, E·I, Saint-Venant, shear factors, Mooney, Rivlin), converged 2-D finite elements of the section
-//! (`tests/data/relaxed`), a 3-D finite-element cantilever (tip deflection / h = 9.8946), and the basis itself, refined. What an evaluation costs is in the example `work_precision`.
+//! (`tests/data/relaxed`), a 3-D finite-element cantilever (tip deflection / h = 9.8946), and the basis itself, refined. What an evaluation
+//! costs is in the example `work_precision`.
 #![allow(clippy::print_stdout)]
 
 #[path = "ladder/bar.rs"]

@@ -11,7 +11,7 @@ use nalgebra::{Vector3, vector};
 
 use super::figure::{Chart, Outcome, Slope, stack};
 use super::page::{Page, digits, scientific};
-use super::table::Table;
+use super::table::{Row, Table};
 use super::{Run, timing};
 
 const FILE: &str = "dynamics.csv";
@@ -82,7 +82,7 @@ pub fn measure(run: &Run) -> Outcome {
         ],
     );
     for (name, scheme, steps) in [
-        ("ESDIRK4(3)", Scheme::Esdirk43, run.of(&[30, 60][..], &[20, 30, 40, 60, 80, 160, 320])),
+        ("ESDIRK4(3)", Scheme::Esdirk43, run.of(&[30, 60][..], &[20, 30, 40, 60, 80, 160, 320, 640])),
         ("generalised-α", alpha, run.of(&[80, 160][..], &[60, 80, 120, 160, 320, 640, 1280])),
     ] {
         for &(order, elements) in meshes {
@@ -90,7 +90,7 @@ pub fn measure(run: &Run) -> Outcome {
             for &steps in steps {
                 let dynamics = dynamics(order, elements, scheme, steps, 1e-8);
                 let Ok(tips) = follow(&scene, &dynamics) else { continue };
-                let us = timing::median(run, || drop(follow(&scene, &dynamics)));
+                let us = timing::quartile(run, || drop(follow(&scene, &dynamics)));
                 let mesh = format!("order {}, {elements} elements", 2 * (order as usize + 1));
                 let error = distance(&tips, &exact);
                 table.push(&[name, &mesh], &[f64::from(steps), error, us * 1e-3, us / tick]);
@@ -104,24 +104,32 @@ pub fn page(run: &Run, page: &mut Page) -> Outcome {
     let table = Table::load(&run.output.path(FILE))?;
     let reference = Table::load(&run.output.path(REFERENCE))?;
     let reference = reference.rows().next().ok_or("no reference")?;
-    draw(run, &table)?;
+    let finest =
+        format!("{} elements of order 6, {} steps", reference.number("elements"), reference.number("steps"));
+    draw(run, &table, &finest)?;
     page.heading("Dynamics");
     let far =
         page.key("dynamics.reference.distance", &scientific(reference.number("distance_from_other_codes")));
     page.paragraph(&format!(
         "L = 1 m, r = 25 mm, 10 MPa, 1000 kg/m³, released horizontally under gravity, undamped, for a second. The error is the largest distance of the tip, over \
-         L, at 0.5 s and 1 s, from {} elements of order 6 with {} steps of ESDIRK4(3); that run is {far} from what two other codes agree on to 3e-6.",
-        reference.number("elements"),
-        reference.number("steps"),
+         L, at 0.5 s and 1 s, from {finest} of ESDIRK4(3); that run is {far} from what two other codes agree on to 3e-6. Gravity comes suddenly and excites all modes, so that in this range neither scheme falls with its own order but with about the second; \
+         with a smooth start both have theirs (`cargo run --release --example release`).",
     ));
     page.figure(FIGURE, "Error of the tip against the time for a simulated second");
-    page.paragraph("The least time of any of these steps and meshes that is within an error, ms for a simulated second (thousands of ticks):");
+    page.paragraph("The least time of any of these steps and meshes that is within an error, as all smaller steps are, ms for a simulated second (thousands of ticks):");
     let mut rows = Vec::new();
     for scheme in ["ESDIRK4(3)", "generalised-α"] {
         let short = if scheme.starts_with('E') { "esdirk" } else { "alpha" };
         let mut cells = vec![scheme.to_string()];
         for (name, target) in TARGETS {
-            let good = table.rows().filter(|row| row.is("scheme", scheme) && row.number("error") <= target);
+            // an error that passes through zero on its way to that of a coarse mesh is luck
+            let stays = |row: &Row<'_>| {
+                let finer = table.rows().filter(|r| r.is("scheme", scheme) && r.is("mesh", row.text("mesh")));
+                finer
+                    .filter(|r| r.number("steps") >= row.number("steps"))
+                    .all(|r| r.number("error") <= target)
+            };
+            let good = table.rows().filter(|row| row.is("scheme", scheme) && stays(row));
             let least = good.min_by(|a, b| a.number("ms").total_cmp(&b.number("ms")));
             let number = |column: &str| least.map_or(f64::NAN, |row| row.number(column));
             let ms = page.key(&format!("dynamics.{short}.to_{name}.ms"), &digits(number("ms")));
@@ -138,10 +146,10 @@ pub fn page(run: &Run, page: &mut Page) -> Outcome {
     Ok(())
 }
 
-fn draw(run: &Run, table: &Table) -> Outcome {
+fn draw(run: &Run, table: &Table, reference: &str) -> Outcome {
     let mut charts = Vec::new();
-    for (scheme, order, at) in [("ESDIRK4(3)", -4.0, [4.0, 1e-5]), ("generalised-α", -2.0, [4.0, 3e-3])] {
-        let title = format!("{scheme}, steps refined on a mesh; against a run refined in both");
+    for scheme in ["ESDIRK4(3)", "generalised-α"] {
+        let title = format!("{scheme}, steps refined on each mesh; against {reference}");
         let mut chart =
             Chart::new(&title, "time for a simulated second, ms", "tip error / L").log(true, true);
         let mut meshes: Vec<String> = Vec::new();
@@ -157,7 +165,7 @@ fn draw(run: &Run, table: &Table) -> Outcome {
                 rows.map(|row| [row.number("ms"), row.number("error")]),
             );
         }
-        charts.push(chart.slope(Slope { order, at, ratio: 2.0 }));
+        charts.push(chart.slope(Slope { order: -2.0, at: [150.0, 3e-3], ratio: 2.0 }));
     }
     stack(&run.output.path("figures").join(FIGURE), &charts)
 }

@@ -55,7 +55,7 @@ fn output_of(program: &str, arguments: &[&str]) -> Option<String> {
 pub fn page(run: &Run, page: &mut Page) -> Outcome {
     page.paragraph(
         "Written by `cargo run --release --example work_precision`, figures included; the numbers behind it are in \
-         `target/hyperrod/work_precision/*.csv` after that. Medians on one thread, of as many calls as fit into a fifth of a second. The machine is \
+         `target/hyperrod/work_precision/*.csv` after that. Lower quartiles on one thread, of as many calls as fit into a fifth of a second. The machine is \
          shared: single times are good to about ±30 %. Each has its ratio to a *tick* beside it, the time of a loop of a thousand dependent multiply-adds, \
          measured next to it. Before every number that is quoted elsewhere stands its key, in a comment.",
     );

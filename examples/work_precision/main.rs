@@ -5,12 +5,13 @@
 //! by a key of that page. `-- --page` makes the page again from the CSV files there are; `-- --quick` measures little, into
 //! `target/hyperrod/work_precision/quick` alone.
 //!
-//! Times are medians on one thread, each beside its ratio to a loop of a thousand dependent multiply-adds.
+//! Times are lower quartiles on one thread, each beside its ratio to a loop of a thousand dependent multiply-adds.
 #![allow(clippy::print_stdout)] // an example tells what it found
 
 mod dynamics;
 mod engine;
 #[path = "../../benches/engine/cases.rs"]
+#[allow(dead_code, reason = "other programs use the rest")]
 mod engine_cases;
 #[path = "../figure/mod.rs"]
 mod figure;

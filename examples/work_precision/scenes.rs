@@ -3,7 +3,7 @@
 use hyperrod::body::{Constraint, LineDensity};
 use hyperrod::load::{DeadWrench, Gravity};
 use hyperrod::material::{NeoHookean, Station};
-use hyperrod::section::{Circle, CrossSection, Relaxed, Section, Stiffness, Warping};
+use hyperrod::section::{Circle, CrossSection, Relaxed, Section, Shape, Stiffness, Warping};
 use hyperrod::{Body, Pose, Rod, Strain};
 use nalgebra::{Vector3, vector};
 use std::f64::consts::PI;
@@ -70,9 +70,9 @@ pub fn scenes() -> [Scene; 3] {
 
 impl Scene {
     pub fn section(&self, name: &str) -> Outcome<Box<dyn CrossSection>> {
-        let circle = Circle::new(self.radius);
+        let circle = || -> Box<dyn Shape> { Box::new(Circle::new(self.radius)) };
         let material = NeoHookean::from_young(self.young, self.poisson)?;
-        let relaxed = |warping| Relaxed::new(circle.clone(), material)?.with_warping(warping);
+        let relaxed = |warping| Relaxed::new(circle(), material)?.with_warping(warping);
         let shear = self.young / (2.0 * (1.0 + self.poisson));
         Ok(match name {
             "linear law" => {
@@ -81,9 +81,9 @@ impl Scene {
             }
             // λ + 2μ = E
             "rigid, E and G matched" => {
-                Box::new(Section::new(circle.clone(), NeoHookean::new(shear, self.young - 2.0 * shear)?)?)
+                Box::new(Section::new(circle(), NeoHookean::new(shear, self.young - 2.0 * shear)?)?)
             }
-            "rigid, datasheet" => Box::new(Section::new(circle.clone(), material)?),
+            "rigid, datasheet" => Box::new(Section::new(circle(), material)?),
             "relaxed, anticlastic" => Box::new(relaxed(Warping::ANTICLASTIC)?),
             _ => Box::new(relaxed(Warping::SHEAR)?),
         })

@@ -2,7 +2,7 @@
 
 use hyperrod::Strain;
 use hyperrod::material::{NeoHookean, Request, Station};
-use hyperrod::section::{Circle, CrossSection, EffectiveStiffness, Section, Warping};
+use hyperrod::section::{CrossSection, EffectiveStiffness, Section, Warping};
 use std::hint::black_box;
 
 use super::figure::{Chart, Outcome, stack};
@@ -46,16 +46,16 @@ pub fn measure(run: &Run) -> Outcome {
         let strain = Strain::from_array(case.dxi);
         let rigid = Section::new(shape(&case.section), NeoHookean::new(1.0, case.lambda)?)?;
         let tick = timing::tick();
-        let base =
-            timing::median(run, || drop(black_box(rigid.respond(&at, black_box(&strain), Request::Tangent))));
+        let base = timing::quartile(run, || {
+            drop(black_box(rigid.respond(&at, black_box(&strain), Request::Tangent)))
+        });
         let error = relative(&rigid.wrench(&at, &strain)?.to_array(), &case.psi);
         let points = rigid.point_count() as f64;
         table.push(
             &[name, "rigid"],
             &[0.0, rigid.degree() as f64, points, error, base, base, 1.0, base / tick],
         );
-        let rungs: &[Warping] = run.of(&Warping::LADDER[1..6], &Warping::LADDER[1..]);
-        for &rung in rungs {
+        for rung in Warping::LADDER.into_iter().skip(1) {
             let degree = rung.in_plane.max(rung.axial);
             let least = (2 * degree).max(4);
             for quadrature in [None, Some(least - 2), Some(least), Some(least + 6)] {
@@ -89,11 +89,11 @@ fn evaluate(
         return Ok(()); // too poor a quadrature may lose its stability
     };
     let (response, _) = section.respond_from(Some(&near), &at, &strain, Request::Tangent)?;
-    let warm = timing::median(run, || {
+    let warm = timing::quartile(run, || {
         drop(black_box(section.respond_from(Some(&near), &at, black_box(&strain), Request::Tangent)));
     });
     let cold = match quadrature {
-        None => timing::median(run, || {
+        None => timing::quartile(run, || {
             drop(black_box(section.respond(&at, black_box(&strain), Request::Tangent)))
         }),
         Some(_) => f64::NAN,
@@ -130,8 +130,8 @@ pub fn page(run: &Run, page: &mut Page) -> Outcome {
             let key = format!("sections.{}.{short}", name.split(' ').next().unwrap_or_default());
             rows.push(vec![
                 rung.to_string(),
-                digits(row.number("modes")),
-                digits(row.number("points")),
+                row.number("modes").to_string(),
+                row.number("points").to_string(),
                 page.key(&format!("{key}.us"), &digits(row.number("us"))),
                 digits(row.number("ticks")),
                 digits(row.number("cold_us")),
@@ -166,7 +166,7 @@ pub fn page(run: &Run, page: &mut Page) -> Outcome {
 
 /// EA of a rigid section over E·A.
 fn stiffer(poisson: f64) -> Outcome<f64> {
-    let section = Section::new(Circle::new(1.0), NeoHookean::from_young(1.0, poisson)?)?;
+    let section = Section::new(shape("circle"), NeoHookean::from_young(1.0, poisson)?)?;
     let stiffness = EffectiveStiffness::of(&section, &Station::straight(0.0), &Strain::zero())?;
     Ok(stiffness.axial / std::f64::consts::PI)
 }

@@ -1,12 +1,12 @@
-//! Medians, and the loop they are compared with.
+//! Lower quartiles of times, and the loop they are compared with. What else a shared machine does makes a call longer, never shorter.
 
 use std::hint::black_box;
 use std::time::Instant;
 
 use super::Run;
 
-/// Median time of a call, µs: as many calls as fit into a share of a second, at least three, at most a thousand.
-pub fn median(run: &Run, mut call: impl FnMut()) -> f64 {
+/// Lower quartile of the time of a call, µs: as many calls as fit into a share of a second, at least three, at most a thousand.
+pub fn quartile(run: &Run, mut call: impl FnMut()) -> f64 {
     let budget = run.of(2e3, 2e5);
     let mut times = Vec::new();
     let start = Instant::now();
@@ -15,11 +15,15 @@ pub fn median(run: &Run, mut call: impl FnMut()) -> f64 {
         call();
         times.push(begin.elapsed().as_secs_f64() * 1e6);
     }
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
+    lower_quartile(times)
 }
 
-/// Medians of several calls that take turns, µs.
+fn lower_quartile(mut times: Vec<f64>) -> f64 {
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 4]
+}
+
+/// The same of several calls that take turns, µs.
 pub fn interleaved(rounds: usize, calls: &mut [Box<dyn FnMut() + '_>]) -> Vec<f64> {
     let mut times = vec![Vec::with_capacity(rounds); calls.len()];
     for _ in 0..rounds {
@@ -29,11 +33,7 @@ pub fn interleaved(rounds: usize, calls: &mut [Box<dyn FnMut() + '_>]) -> Vec<f6
             times.push(begin.elapsed().as_secs_f64() * 1e6);
         }
     }
-    let middle = |times: &mut Vec<f64>| {
-        times.sort_by(f64::total_cmp);
-        times[times.len() / 2]
-    };
-    times.iter_mut().map(middle).collect()
+    times.into_iter().map(lower_quartile).collect()
 }
 
 /// Time of a thousand dependent multiply-adds, µs: the clock of the processor decides it alone. The unit of all ratios.
@@ -48,6 +48,5 @@ pub fn tick() -> f64 {
         black_box(x);
         times.push(begin.elapsed().as_secs_f64() * 1e6 / 200.0);
     }
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
+    lower_quartile(times)
 }
