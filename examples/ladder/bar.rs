@@ -4,6 +4,7 @@ use hyperrod::load::DeadWrench;
 use hyperrod::material::{NeoHookean, Station};
 use hyperrod::section::{CrossSection, PathOptions, Rectangle, Relaxed, Section, Warping, WrenchPath};
 use hyperrod::{Body, Pose, Rod, StaticSolution, Statics, Strain, Wrench};
+use indicatif::{ProgressBar, ProgressStyle};
 use nalgebra::{Vector3, vector};
 use std::f64::consts::TAU;
 
@@ -65,7 +66,16 @@ fn solve(section: impl CrossSection) -> Outcome<StaticSolution> {
     let load = 2.0 * 2.6 * SIDE.powi(4) / 12.0 / LENGTH.powi(2); // 2 E I / L²
     let body = Body::new(LENGTH, section)?;
     let tip = DeadWrench::force(vector![0.0, -load, 0.0])?;
-    Ok(Statics::to(1e-6).solve(&Rod::clamped(body, Pose::identity()).with_tip_load(tip))?)
+    let rod = Rod::clamped(body, Pose::identity()).with_tip_load(tip);
+    // every iteration evaluates some dozens of relaxed sections: worth a line on the terminal
+    let style = ProgressStyle::with_template("{spinner} cantilever, iteration {pos}: {msg}")?;
+    let bar = ProgressBar::new_spinner().with_style(style);
+    let solution = Statics::to(1e-6).solve_observed(&rod, |iteration| {
+        bar.inc(1);
+        bar.set_message(format!("{} elements, residual {:.1e}", iteration.elements, iteration.residual));
+    });
+    bar.finish_and_clear();
+    Ok(solution?)
 }
 
 /// Square section, L/h = 20, ν = 0.3, dead tip load 2EI/L². Oracle: 3-D finite elements whose clamp lets the end slide in its plane.

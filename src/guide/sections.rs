@@ -93,4 +93,4 @@
 //! [`Body::with_reference_strain`](crate::Body::with_reference_strain) takes ξ* of an arc or a helix,
 //! [`with_varying_reference`](crate::Body::with_varying_reference) a function of s.
 //!
-//! Next: [loads](super::loads), [supports and actuators](super::supports).
+//! Next: [which model is enough](super::models), [loads](super::loads), [supports and actuators](super::supports).

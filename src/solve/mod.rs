@@ -24,6 +24,7 @@ mod scale;
 mod solution;
 mod stability;
 mod statics;
+mod suggest;
 mod sweep;
 mod tendon_length;
 mod unknowns;
@@ -35,5 +36,6 @@ pub use path::{Buckling, EquilibriumPath, PathEnd, PathEvent, PathEventKind, Pat
 pub use report::{ErrorEstimate, Iteration, Report, Rung, Stability};
 pub use solution::{Node, StaticSolution};
 pub use statics::{Order, Statics};
+pub use suggest::{LeftOut, ModelError, ModelLadder, ModelRung, Suggestion, suggest};
 pub use tendon_length::TendonSolution;
 pub use workspace::Workspace;
