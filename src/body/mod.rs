@@ -146,7 +146,7 @@ impl<C: CrossSection, M: Send + Sync> Body<C, M> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not the body of a rod",
     label = "a body is needed here",
-    note = "`Body::new(length, section)?` makes one; what has just been made is a `Result`, so mind the `?`"
+    note = "`Body::new(length, section)?` makes one; a `Result` with a body in it still wants its `?`"
 )]
 pub trait Elastic: Send + Sync {
     /// Length L, m.
