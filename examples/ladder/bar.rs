@@ -82,7 +82,10 @@ fn solve(section: impl CrossSection) -> Outcome<StaticSolution> {
 pub fn cantilever(tally: &mut Tally, output: &Output) -> Outcome {
     const FINITE_ELEMENTS: f64 = 9.8946;
     let rubber = NeoHookean::from_young(2.6, 0.3)?;
-    let relaxed = solve(Relaxed::new(Rectangle::new(SIDE, SIDE), rubber)?.with_warping(Warping::SHEAR)?)?;
+    let solid = |warping| -> Outcome<_> {
+        Ok(Relaxed::new(Rectangle::new(SIDE, SIDE), rubber)?.with_warping(warping)?)
+    };
+    let relaxed = solve(solid(Warping::SHEAR)?)?;
     let rigid = solve(Section::new(Rectangle::new(SIDE, SIDE), rubber)?)?;
     let deflection = |solution: &StaticSolution| -solution.tip().pose.position.y / SIDE;
     let [free, stiff] = [deflection(&relaxed), deflection(&rigid)];
@@ -92,7 +95,13 @@ pub fn cantilever(tally: &mut Tally, output: &Output) -> Outcome {
     let rung = Warping::SHEAR.to_string();
     tally.line("rubber cantilever: tip deflection", &rung, free, FINITE_ELEMENTS, 5e-4);
     println!("  a rigid section is off by {:.1} %", (stiff / FINITE_ELEMENTS - 1.0) * 100.0);
-    extremes(&relaxed, &Relaxed::new(Rectangle::new(SIDE, SIDE), rubber)?.with_warping(Warping::SHEAR)?)?;
+    let largest = relaxed.extremes(&Body::new(LENGTH, solid(Warping::SHEAR)?)?)?;
+    println!(
+        "  largest stretch {:.4}, largest von Mises stress {:.4} mu, at s = {} h",
+        largest.stretch.point.largest_stretch(),
+        largest.stress.point.von_mises(),
+        largest.stress.s
+    );
     let outline = |solution: &StaticSolution| {
         let mut nodes: Vec<_> = solution.nodes().iter().chain(solution.stages()).collect();
         nodes.sort_by(|a, b| a.s.total_cmp(&b.s));
@@ -109,18 +118,6 @@ pub fn cantilever(tally: &mut Tally, output: &Output) -> Outcome {
         .text("relaxed; dot: 3-D finite elements", [8.5, -9.0])
         .save(&output.path("cantilever.svg"))?;
     curves(output)
-}
-
-/// The largest stretch and stress along the solved rod.
-fn extremes(solution: &StaticSolution, section: &Relaxed<Rectangle, NeoHookean>) -> Outcome {
-    let mut largest = [0.0_f64; 2];
-    for node in solution.stages() {
-        let found = section.deformed(&Station::straight(node.s), &node.strain)?.extremes()?;
-        largest[0] = largest[0].max(found.stretch.largest_stretch());
-        largest[1] = largest[1].max(found.stress.von_mises());
-    }
-    println!("  largest stretch {:.4}, largest von Mises stress {:.4} mu", largest[0], largest[1]);
-    Ok(())
 }
 
 /// Moment–curvature, torque–twist and force–stretch curves of the square, rigid and relaxed.

@@ -11,6 +11,7 @@ mod describe;
 pub mod dynamics;
 mod equilibrium;
 mod estimate;
+mod extremes;
 mod failure;
 mod globalise;
 mod linear;
@@ -29,6 +30,7 @@ mod tendon_length;
 mod unknowns;
 mod workspace;
 
+pub use extremes::{RodExtremes, RodPoint};
 pub use failure::{Failure, Reason};
 pub use model_ladder::{LeftOut, ModelError, ModelLadder, ModelRung, Suggestion, suggest};
 pub use path::{Buckling, EquilibriumPath, PathEnd, PathEvent, PathEventKind, PathOptions, PathState};

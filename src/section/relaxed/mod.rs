@@ -31,7 +31,7 @@ use crate::material::{Local, Request, Response, Station, check_strain};
 use crate::quadrature::Rule;
 
 pub use choose::{LadderReport, LadderStep};
-pub use deformed::{Deformed, Extremes, SectionPoint};
+pub use deformed::{Deformable, Deformed, Extremes, SectionPoint};
 pub use warping::Warping;
 
 /// A shape filled with one material whose points are free to move: the section contracts, bends the other way, ovalises and warps.
@@ -361,6 +361,22 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
 impl<S: Shape, M: Local> CrossSection for Relaxed<S, M> {
     fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
         Ok(self.respond_from(None, at, strain, request)?.0)
+    }
+}
+
+impl<S: Shape, M: Local> Deformable for Relaxed<S, M> {
+    fn deformed(&self, at: &Station, strain: &Strain) -> Result<Deformed<'_>> {
+        Self::deformed(self, at, strain)
+    }
+}
+
+impl<S: Shape, M: Local> Deformable for Section<S, M> {
+    fn deformed(&self, at: &Station, strain: &Strain) -> Result<Deformed<'_>> {
+        self.energy(at, strain)?; // refuses what cannot be strained so
+        let modes = Modes::new(self.points(at.s)?, self.shape().is_ring(), Warping::RIGID)?;
+        let coefficients = modes.expand(&DVector::zeros(0));
+        let (modes, pressures) = (Cow::Owned(modes), Vec::new());
+        Ok(Deformed { modes, law: self.material(), at: *at, strain: *strain, coefficients, pressures })
     }
 }
 
