@@ -123,7 +123,7 @@ pub fn page(run: &Run, page: &mut Page) -> Outcome {
     page.paragraph(&format!(
         "What each choice costs, and how far off it is. The modelling error is the largest displacement of a node over L, or rotation in rad, from the richest model, the \
          section `{}` with all strains, on the same mesh of 16 elements of order 6. In the figure a colour is a section, its dots the four choices of strains of the tables; what is below {FLOOR:.0e} is rounding. The estimate is that of \
-         [`suggest`](../src/solve/suggest/mod.rs), which solves the richest model only. *Matched* constants are λ + 2μ = E and μ = G: what a rigid section needs to have the moduli of \
+         [`suggest`](../src/solve/model_ladder/mod.rs), which solves the richest model only. *Matched* constants are λ + 2μ = E and μ = G: what a rigid section needs to have the moduli of \
          the rod.",
         own()
     ));
