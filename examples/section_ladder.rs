@@ -4,11 +4,14 @@
 //! the richest bases.
 //!
 //! Oracles: closed forms (E·A, E·I, Saint-Venant, shear factors, Mooney, Rivlin), converged 2-D finite elements of the section
-//! (`tests/data/relaxed`), a 3-D finite-element cantilever (tip deflection / h = 9.8946), and the basis itself, refined.
+//! (`tests/data/relaxed`), a 3-D finite-element cantilever (tip deflection / h = 9.8946), and the basis itself, refined. What an evaluation
+//! costs is in the example `work_precision`.
 #![allow(clippy::print_stdout)]
 
 #[path = "ladder/bar.rs"]
 mod bar;
+#[path = "ladder/cases.rs"]
+mod cases;
 #[path = "figure/mod.rs"]
 mod figure;
 #[path = "ladder/finite.rs"]
@@ -21,15 +24,12 @@ mod reference;
 mod rest;
 #[path = "ladder/tube.rs"]
 mod tube;
-#[path = "ladder/work.rs"]
-mod work;
 
+use cases::{relative, shape, solid};
 use figure::{Outcome, Output, flag};
 use hyperrod::Strain;
-use hyperrod::material::{NeoHookean, Request, Response, Station};
-use hyperrod::section::{CrossSection, Relaxed, Shape, Warping};
-
-type Solid = Relaxed<Box<dyn Shape>, NeoHookean>;
+use hyperrod::material::{Request, Response, Station};
+use hyperrod::section::{CrossSection, Warping};
 
 /// Lines printed, and how many of them are within their tolerance.
 #[derive(Default)]
@@ -56,20 +56,8 @@ fn warping((in_plane, axial): (usize, usize)) -> Warping {
     Warping { in_plane, axial }
 }
 
-/// A relaxed section of the neo-Hookean law of the references, μ = 1.
-fn solid(shape: Box<dyn Shape>, lambda: f64, warping: Warping) -> Outcome<Solid> {
-    Ok(Relaxed::new(shape, NeoHookean::new(1.0, lambda)?)?.with_warping(warping)?)
-}
-
 fn respond(section: &dyn CrossSection, strain: [f64; 6]) -> Outcome<Response> {
     Ok(section.respond(&Station::straight(0.0), &Strain::from_array(strain), Request::Tangent)?)
-}
-
-/// The largest difference, relative to the largest entry of the second.
-fn relative(got: &[f64], exact: &[f64]) -> f64 {
-    let scale = exact.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-    got.iter().zip(exact).fold(0.0_f64, |worst, (a, b)| worst.max((a - b).abs()))
-        / scale.max(f64::MIN_POSITIVE)
 }
 
 fn main() -> Outcome {
@@ -83,7 +71,6 @@ fn main() -> Outcome {
     bar::twisted(&mut tally, quick)?;
     bar::cantilever(&mut tally, &output)?;
     tube::run(&mut tally, &output, quick)?;
-    work::run(&output, quick)?;
     println!("section_ladder: {} of {} within tolerance", tally.good, tally.count);
     Ok(())
 }

@@ -153,7 +153,8 @@
 //!
 //! # Ladder of models
 //!
-//! Each row is a choice, with the simplest first; take the first that is true of your rod. `cargo run --release --example engine_speed` prints
+//! Each row is a choice, with the simplest first; take the first that is true of your rod, or let [`solve::suggest`] estimate how far off a simpler
+//! one is ([chapter](guide::models)). `cargo run --release --example engine_speed` prints
 //! what the levels of a law, the requests and the quadratures cost, as ratios to derivatives taken by hand; the table of
 //! [`material`] says how exact they are, and `cargo run --release --example material_check` what a law does in a section.
 //!

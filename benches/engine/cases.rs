@@ -14,6 +14,7 @@ pub const POLY: [f64; 5] = [1e5, 3e4, 2e4, -5e3, 5e5];
 pub const LAME: [f64; 2] = [1.7e5, 4e5];
 
 /// A 5-term polynomial at the isotropic level.
+#[derive(Clone, Copy)]
 pub struct PolyIsotropic;
 
 impl Isotropic for PolyIsotropic {
@@ -27,6 +28,7 @@ impl Isotropic for PolyIsotropic {
 }
 
 /// The same at the local level, from γ.
+#[derive(Clone, Copy)]
 pub struct PolyLocal;
 
 impl Local for PolyLocal {
@@ -41,6 +43,7 @@ impl Local for PolyLocal {
 }
 
 /// The same at the section level, from Δξ and the point.
+#[derive(Clone, Copy)]
 pub struct PolySectional;
 
 impl Sectional for PolySectional {

@@ -4,12 +4,15 @@ use std::path::Path;
 use super::Outcome;
 use super::frame::{Frame, MARGIN};
 use super::scale::Scale;
-use super::sheet::{BLUE, GREEN, INK, ORANGE, PURPLE, SKY, Sheet, TEXT, text_width};
+use super::sheet::{AMBER, BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, Sheet, TEXT, text_width};
 
-const PALETTE: [RGBColor; 5] = [BLUE, ORANGE, GREEN, PURPLE, SKY];
+const PALETTE: [RGBColor; 8] = [BLUE, ORANGE, GREEN, PURPLE, SKY, AMBER, GREY, INK];
+
+/// Height of a row of the legend, pixels.
+const ROW: f64 = 17.0;
 const SIZE: [f64; 2] = [760.0, 420.0];
 
-/// A line chart with a legend above it.
+/// A line chart with a legend of one row or two above it.
 #[derive(Clone, Default)]
 pub struct Chart {
     title: String,
@@ -93,9 +96,10 @@ impl Chart {
             y: scale(1, [offset + SIZE[1] - bottom, offset + top]),
         };
         frame.draw(sheet, [&self.labels[0], &self.labels[1]])?;
-        sheet.text(&self.title, [left, offset + 14.0], [-1, -1], 1.2 * TEXT)?;
-        let mut legend = [left, offset + top - 14.0];
-        for (curve, color) in self.curves.iter().zip(PALETTE.into_iter().cycle()) {
+        sheet.text(&self.title, [left, offset + 8.0], [-1, -1], 1.15 * TEXT)?;
+        let places = self.legend_places();
+        for ((curve, color), legend) in self.curves.iter().zip(PALETTE.into_iter().cycle()).zip(places) {
+            let legend = [legend[0], offset + legend[1]];
             let drawable = |p: &&[f64; 2]| (0..2).all(|i| p[i].is_finite() && (!self.log[i] || p[i] > 0.0));
             let points: Vec<_> = curve.points.iter().filter(drawable).map(|p| frame.at(*p)).collect();
             if curve.line {
@@ -112,12 +116,28 @@ impl Chart {
                 sheet.disc([legend[0] + 12.0, legend[1]], 4.0, color)?;
             }
             sheet.text(&curve.name, [legend[0] + 30.0, legend[1]], [-1, 0], TEXT)?;
-            legend[0] += 54.0 + text_width(&curve.name, TEXT);
         }
         for slope in &self.slopes {
             slope.draw(sheet, &frame)?;
         }
         Ok(())
+    }
+}
+
+impl Chart {
+    /// Where the entries of the legend begin: a new row where one does not fit any more, the last just above the box.
+    fn legend_places(&self) -> Vec<[f64; 2]> {
+        let [left, right, top, _] = MARGIN;
+        let (mut x, mut row, mut places) = (left, 0.0, Vec::new());
+        for curve in &self.curves {
+            let width = 54.0 + text_width(&curve.name, TEXT);
+            if x > left && x + width > SIZE[0] - 0.5 * right {
+                (x, row) = (left, row + 1.0);
+            }
+            places.push([x, row]);
+            x += width;
+        }
+        places.into_iter().map(|[x, r]| [x, top - 12.0 - ROW * (row - r)]).collect()
     }
 }
 

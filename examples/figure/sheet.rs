@@ -11,6 +11,7 @@ pub const ORANGE: RGBColor = RGBColor(213, 94, 0);
 pub const GREEN: RGBColor = RGBColor(0, 158, 115);
 pub const PURPLE: RGBColor = RGBColor(204, 121, 167);
 pub const SKY: RGBColor = RGBColor(86, 180, 233);
+pub const AMBER: RGBColor = RGBColor(230, 159, 0);
 pub const GREY: RGBColor = RGBColor(120, 120, 120);
 pub const INK: RGBColor = RGBColor(40, 40, 40);
 

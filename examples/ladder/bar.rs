@@ -4,6 +4,7 @@ use hyperrod::load::DeadWrench;
 use hyperrod::material::{NeoHookean, Station};
 use hyperrod::section::{CrossSection, PathOptions, Rectangle, Relaxed, Section, Warping, WrenchPath};
 use hyperrod::{Body, Pose, Rod, StaticSolution, Statics, Strain, Wrench};
+use indicatif::{ProgressBar, ProgressStyle};
 use nalgebra::{Vector3, vector};
 use std::f64::consts::TAU;
 
@@ -65,14 +66,26 @@ fn solve(section: impl CrossSection) -> Outcome<StaticSolution> {
     let load = 2.0 * 2.6 * SIDE.powi(4) / 12.0 / LENGTH.powi(2); // 2 E I / L²
     let body = Body::new(LENGTH, section)?;
     let tip = DeadWrench::force(vector![0.0, -load, 0.0])?;
-    Ok(Statics::to(1e-6).solve(&Rod::clamped(body, Pose::identity()).with_tip_load(tip))?)
+    let rod = Rod::clamped(body, Pose::identity()).with_tip_load(tip);
+    // every iteration evaluates some dozens of relaxed sections: worth a line on the terminal
+    let style = ProgressStyle::with_template("{spinner} cantilever, iteration {pos}: {msg}")?;
+    let bar = ProgressBar::new_spinner().with_style(style);
+    let solution = Statics::to(1e-6).solve_observed(&rod, |iteration| {
+        bar.inc(1);
+        bar.set_message(format!("{} elements, residual {:.1e}", iteration.elements, iteration.residual));
+    });
+    bar.finish_and_clear();
+    Ok(solution?)
 }
 
 /// Square section, L/h = 20, ν = 0.3, dead tip load 2EI/L². Oracle: 3-D finite elements whose clamp lets the end slide in its plane.
 pub fn cantilever(tally: &mut Tally, output: &Output) -> Outcome {
     const FINITE_ELEMENTS: f64 = 9.8946;
     let rubber = NeoHookean::from_young(2.6, 0.3)?;
-    let relaxed = solve(Relaxed::new(Rectangle::new(SIDE, SIDE), rubber)?.with_warping(Warping::SHEAR)?)?;
+    let solid = |warping| -> Outcome<_> {
+        Ok(Relaxed::new(Rectangle::new(SIDE, SIDE), rubber)?.with_warping(warping)?)
+    };
+    let relaxed = solve(solid(Warping::SHEAR)?)?;
     let rigid = solve(Section::new(Rectangle::new(SIDE, SIDE), rubber)?)?;
     let deflection = |solution: &StaticSolution| -solution.tip().pose.position.y / SIDE;
     let [free, stiff] = [deflection(&relaxed), deflection(&rigid)];
@@ -82,7 +95,13 @@ pub fn cantilever(tally: &mut Tally, output: &Output) -> Outcome {
     let rung = Warping::SHEAR.to_string();
     tally.line("rubber cantilever: tip deflection", &rung, free, FINITE_ELEMENTS, 5e-4);
     println!("  a rigid section is off by {:.1} %", (stiff / FINITE_ELEMENTS - 1.0) * 100.0);
-    extremes(&relaxed, &Relaxed::new(Rectangle::new(SIDE, SIDE), rubber)?.with_warping(Warping::SHEAR)?)?;
+    let largest = relaxed.extremes(&Body::new(LENGTH, solid(Warping::SHEAR)?)?)?;
+    println!(
+        "  largest stretch {:.4}, largest von Mises stress {:.4} mu, at s = {} h",
+        largest.stretch.point.largest_stretch(),
+        largest.stress.point.von_mises(),
+        largest.stress.s
+    );
     let outline = |solution: &StaticSolution| {
         let mut nodes: Vec<_> = solution.nodes().iter().chain(solution.stages()).collect();
         nodes.sort_by(|a, b| a.s.total_cmp(&b.s));
@@ -99,18 +118,6 @@ pub fn cantilever(tally: &mut Tally, output: &Output) -> Outcome {
         .text("relaxed; dot: 3-D finite elements", [8.5, -9.0])
         .save(&output.path("cantilever.svg"))?;
     curves(output)
-}
-
-/// The largest stretch and stress along the solved rod.
-fn extremes(solution: &StaticSolution, section: &Relaxed<Rectangle, NeoHookean>) -> Outcome {
-    let mut largest = [0.0_f64; 2];
-    for node in solution.stages() {
-        let found = section.deformed(&Station::straight(node.s), &node.strain)?.extremes()?;
-        largest[0] = largest[0].max(found.stretch.largest_stretch());
-        largest[1] = largest[1].max(found.stress.von_mises());
-    }
-    println!("  largest stretch {:.4}, largest von Mises stress {:.4} mu", largest[0], largest[1]);
-    Ok(())
 }
 
 /// Moment–curvature, torque–twist and force–stretch curves of the square, rigid and relaxed.

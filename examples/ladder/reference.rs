@@ -1,51 +1,11 @@
-//! The converged 2-D finite elements of the section: every case at its rung, and convergence in (p, r).
+//! Against the converged 2-D finite elements of the section: every case at its rung, and convergence in (p, r).
 
 use hyperrod::Strain;
 use hyperrod::material::{Request, Station};
-use serde_json::Value;
-use std::path::Path;
 
+use super::cases::{Case, cases};
 use super::figure::{Chart, Output};
-use super::rest::shape;
-use super::{Outcome, Tally, relative, solid, warping};
-
-pub struct Case {
-    pub section: String,
-    pub law: String,
-    pub strain: String,
-    pub lambda: f64,
-    pub dxi: [f64; 6],
-    pub psi: Vec<f64>,
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    value.as_array().into_iter().flatten().filter_map(Value::as_f64).collect()
-}
-
-pub fn cases() -> Outcome<Vec<Case>> {
-    let mut cases = Vec::new();
-    for section in ["circle", "square", "rect1x2", "ellipse"] {
-        let file = format!("tests/data/relaxed/section_{section}.json");
-        let data: Value = serde_json::from_str(&std::fs::read_to_string(
-            Path::new(env!("CARGO_MANIFEST_DIR")).join(file),
-        )?)?;
-        for case in data["cases"].as_array().into_iter().flatten() {
-            let text = |name: &str| case[name].as_str().unwrap_or_default().to_string();
-            let mut dxi = [0.0; 6];
-            dxi.copy_from_slice(&numbers(&case["dxi"]));
-            let law = text("law");
-            cases.push(Case {
-                section: section.to_string(),
-                lambda: data["laws"][&law]["lambda"].as_f64().unwrap_or(f64::NAN),
-                law,
-                strain: text("strain"),
-                dxi,
-                psi: numbers(&case["Psi"]),
-            });
-        }
-    }
-    Ok(cases)
-}
+use super::{Outcome, Tally, relative, shape, solid, warping};
 
 /// The rung that the balance rule names for a strain: the degree of the warping that it brings, and one more in the plane.
 fn rung(section: &str, strain: &str) -> ((usize, usize), f64) {

@@ -1,22 +1,13 @@
 //! Stiffnesses at rest against closed forms.
 
-use hyperrod::section::{Circle, Ellipse, Rectangle, Shape, Warping};
+use hyperrod::section::Warping;
 use std::f64::consts::PI;
 
-use super::{Outcome, Tally, relative, respond, solid, warping};
+use super::{Outcome, Tally, relative, respond, shape, solid, warping};
 
 /// μ = 1, ν = 0.3.
 pub const LAMBDA: f64 = 1.5;
 const YOUNG: f64 = 2.6;
-
-pub fn shape(name: &str) -> Box<dyn Shape> {
-    match name {
-        "circle" => Box::new(Circle::new(1.0)),
-        "square" => Box::new(Rectangle::new(1.0, 1.0)),
-        "rect1x2" => Box::new(Rectangle::new(1.0, 2.0)),
-        _ => Box::new(Ellipse::new(1.0, 0.5)),
-    }
-}
 
 pub fn run(tally: &mut Tally) -> Outcome {
     let inertia = |name: &str| match name {

@@ -5,6 +5,7 @@
 //! | go from a closure to a bent rod | [`first_rod`] |
 //! | write a law of your own | [`laws`] |
 //! | choose a section: rigid, relaxed, resultants, constrained | [`sections`] |
+//! | choose how simple a model may be | [`models`] |
 //! | write a load of your own, also one that asks something new of the body | [`loads`] |
 //! | hold a rod, and move it with tendons and pressure | [`supports`] |
 //! | read what a solve reports, and take the results elsewhere | [`reports`] |
@@ -18,6 +19,7 @@ pub mod failures;
 pub mod first_rod;
 pub mod laws;
 pub mod loads;
+pub mod models;
 pub mod motion;
 pub mod reports;
 pub mod sections;

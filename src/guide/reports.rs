@@ -45,6 +45,12 @@
 //! The error is that of the *mesh*. That of the *model* (a rigid section where the real one contracts) is not in it, nor that of a quadrature
 //! of a law that is no polynomial: [`Section::with_tolerance`](crate::section::Section::with_tolerance) bounds that one.
 //!
+//! # How hard the material works
+//!
+//! [`StaticSolution::extremes`](crate::StaticSolution::extremes) finds the largest stretch and the largest stress over all points of all
+//! sections, and says where; [`Deformable::deformed`](crate::section::Deformable::deformed) shows one section point by point. Both know a
+//! rigid and a relaxed section.
+//!
 //! # While it runs
 //!
 //! [`solve_observed`](crate::Statics::solve_observed) calls you after every iteration: for a progress bar, or to print. The library itself

@@ -46,7 +46,9 @@ pub use point_cloud::PointCloud;
 pub use profile::{Linear, Profile};
 pub use rectangle::Rectangle;
 pub use regular_polygon::RegularPolygon;
-pub use relaxed::{Deformed, Extremes, LadderReport, LadderStep, Relaxation, Relaxed, SectionPoint, Warping};
+pub use relaxed::{
+    Deformable, Deformed, Extremes, LadderReport, LadderStep, Relaxation, Relaxed, SectionPoint, Warping,
+};
 pub use resultant::{Resultant, Resultants};
 pub use ribbon::Ribbon;
 pub use shape::{Affine, Shape};

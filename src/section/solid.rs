@@ -185,6 +185,17 @@ impl<S: Shape, M: Material> Section<S, M> {
         &self.shape
     }
 
+    /// The quadrature points at s.
+    pub(super) fn points(&self, s: f64) -> Result<Points>
+    where
+        S: Shape,
+    {
+        match &self.fixed {
+            Some((points, _)) => Ok(points.clone()),
+            None => self.shape.place(&self.rule, s),
+        }
+    }
+
     /// Calls `f` with the points of the section at s.
     fn with_points<T>(&self, s: f64, f: impl FnOnce(&Points) -> Result<T>) -> Result<T> {
         match &self.fixed {

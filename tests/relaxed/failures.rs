@@ -1,11 +1,11 @@
 //! What a relaxed section refuses, and how it says so; what it reports.
-use hyperrod::material::{Invariants, Isotropic, NeoHookean, Point, Station};
+use hyperrod::material::{Invariants, Isotropic, NeoHookean, Point, Reference, Station};
 use hyperrod::quadrature::{Rule, rectangle};
 use hyperrod::section::{
-    Circle, CrossSection, EffectiveStiffness, Linear, PathOptions, PointCloud, Rectangle, Relaxed, Shape,
-    StrainRange, Warping, WrenchPath,
+    Circle, CrossSection, Deformable, EffectiveStiffness, Linear, PathOptions, PointCloud, Rectangle,
+    Relaxed, Section, Shape, StrainRange, Warping, WrenchPath,
 };
-use hyperrod::{Error, Scalar, Strain, Wrench};
+use hyperrod::{Error, Scalar, Strain, Twist, Wrench};
 use nalgebra::Matrix3;
 
 use crate::{at_rest, relative, respond, solid};
@@ -106,6 +106,37 @@ fn a_strain_that_turns_points_inside_out_is_refused_with_its_place() {
     assert!(matches!(error, Error::InvalidAt { quantity: "strain component omega_x", .. }), "{error}");
     let tapered = Relaxed::new(Circle::new(Linear { from: 1.0, to: 0.0, length: 1.0 }), rubber()).unwrap();
     assert!(tapered.energy(&Station::straight(2.0), &Strain::zero()).is_err());
+}
+
+/// About a curved reference a section must not reach the centre of curvature: j = 1 − κ y at y = ½.
+#[test]
+fn a_reference_curved_into_its_section_is_refused_with_the_place() {
+    let section = Relaxed::new(Rectangle::new(1.0, 1.0), rubber()).unwrap();
+    let curved = |curvature: f64| {
+        let mut twist = Twist::zero();
+        (twist.angular.x, twist.linear.z) = (curvature, 1.0);
+        Station { s: 0.4, reference: Reference { twist, rate: Twist::zero() } }
+    };
+    assert!(section.energy(&curved(1.5), &Strain::zero()).unwrap().abs() < 1e-12);
+    let error = section.energy(&curved(-2.5), &Strain::zero()).unwrap_err();
+    let Error::Inadmissible { quantity, value, s, y, .. } = &error else { panic!("{error}") };
+    assert!(quantity.contains("reference") && *value < 0.0 && *s == 0.4 && y.abs() > 0.3, "{error}");
+}
+
+/// Oracle: a relaxed section without modes, whose integral of the tractions is Ψ.
+#[test]
+fn a_rigid_section_shows_its_points_too() {
+    let strain = Strain::from_array([0.2, -0.1, 0.4, 0.1, 0.05, 0.15]);
+    let rigid = Section::new(Rectangle::new(1.0, 0.5), rubber()).unwrap();
+    let unrelaxed =
+        Relaxed::new(Rectangle::new(1.0, 0.5), rubber()).unwrap().with_warping(Warping::RIGID).unwrap();
+    let shown = rigid.deformed(&at_rest(), &strain).unwrap();
+    let same = unrelaxed.deformed(&at_rest(), &strain).unwrap();
+    let (a, b) = (shown.point(0.3, -0.2).unwrap(), same.point(0.3, -0.2).unwrap());
+    assert!((a.gradient - b.gradient).norm() < 1e-15 && (a.piola - b.piola).norm() < 1e-13);
+    assert!(a.position == [0.3, -0.2, 0.0] && shown.extremes().unwrap().stress.von_mises() > 0.1);
+    let inside_out = Strain::from_array([0.0, 0.0, 0.0, 0.0, 0.0, -1.1]);
+    assert!(matches!(rigid.deformed(&at_rest(), &inside_out), Err(Error::Inadmissible { .. })));
 }
 
 /// A bent section reached only by small steps: a curvature of 0.9 / R from nothing, against the same along a path of warm starts.

@@ -12,8 +12,8 @@ pub use pressure::PressureChamber;
 pub use routing::{Converging, Helical, Routing};
 pub use tendon::Tendon;
 
-use super::CrossSection;
 use super::geometry::{AreaMoments, Geometry};
+use super::{CrossSection, Deformable, Deformed};
 use crate::error::Result;
 use crate::lie::{Strain, Twist};
 use crate::material::{Request, Response, Station};
@@ -121,6 +121,12 @@ impl<C: CrossSection> CrossSection for Actuated<C> {
 }
 
 /// Actuators weigh nothing: the geometry is that of the section.
+impl<C: Deformable> Deformable for Actuated<C> {
+    fn deformed(&self, at: &Station, strain: &Strain) -> Result<Deformed<'_>> {
+        self.section.deformed(at, strain)
+    }
+}
+
 impl<C: Geometry> Geometry for Actuated<C> {
     fn moments(&self, s: f64) -> Result<AreaMoments> {
         self.section.moments(s)

@@ -8,8 +8,41 @@ use super::pressure;
 use crate::error::{Error, Result};
 use crate::lie::Strain;
 use crate::material::{GradientBatch, GradientLaw, GradientState, Points, Request, Station};
+use crate::section::CrossSection;
 
-/// A relaxed section at a strain, to be looked at point by point: where its points went, and what they bear.
+/// A section that shows its points: those of a rigid [`Section`](crate::section::Section) move with its plane, those of a
+/// [`Relaxed`](super::Relaxed) one also within it. The law must be one of the deformation.
+///
+/// ```
+/// use hyperrod::Strain;
+/// use hyperrod::material::{NeoHookean, Station};
+/// use hyperrod::section::{Circle, Deformable, Relaxed, Section, Warping};
+/// # fn main() -> hyperrod::Result<()> {
+/// let rubber = NeoHookean::from_young(1e6, 0.45)?;
+/// let mut strain = Strain::zero();
+/// strain.linear.z = 0.5;
+/// let at = Station::straight(0.0);
+/// let across = |section: &dyn Deformable| -> hyperrod::Result<f64> {
+///     let centre = section.deformed(&at, &strain)?.point(0.0, 0.0)?;
+///     Ok(centre.cauchy()[(0, 0)] / centre.cauchy()[(2, 2)])
+/// };
+/// assert!(across(&Section::new(Circle::new(0.01), rubber)?)? > 0.5); // a rigid section holds its sides by force
+/// assert!(across(&Relaxed::new(Circle::new(0.01), rubber)?)?.abs() < 1e-6);
+/// # Ok(()) }
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "the points of `{Self}` have no deformation and no stress",
+    note = "`Section` and `Relaxed` show their points where their law is one of the deformation (`Local` or `Isotropic`)"
+)]
+pub trait Deformable: CrossSection {
+    /// The section at a strain, to be looked at point by point.
+    ///
+    /// # Errors
+    /// As [`CrossSection::respond`].
+    fn deformed(&self, at: &Station, strain: &Strain) -> Result<Deformed<'_>>;
+}
+
+/// A section at a strain, to be looked at point by point: where its points went, and what they bear.
 #[derive(Clone)]
 pub struct Deformed<'a> {
     pub(super) modes: Cow<'a, Modes>,

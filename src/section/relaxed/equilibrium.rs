@@ -106,8 +106,9 @@ impl Problem<'_> {
     pub(super) fn solve(&self, strain: &Strain, start: &DVector<f64>) -> Result<Equilibrium> {
         match self.newton(strain, start) {
             Ok(found) => Ok(found),
-            Err(Miss::Unstable(error) | Miss::Reference(error)) => Err(error),
-            Err(Miss::Step(_)) => self.along(strain),
+            Err(Miss::Reference(error)) => Err(error),
+            // a saddle met by one leap may not be on the way from rest
+            Err(Miss::Step(_) | Miss::Unstable(_)) => self.along(strain),
         }
     }
 

@@ -31,7 +31,7 @@ use crate::material::{Local, Request, Response, Station, check_strain};
 use crate::quadrature::Rule;
 
 pub use choose::{LadderReport, LadderStep};
-pub use deformed::{Deformed, Extremes, SectionPoint};
+pub use deformed::{Deformable, Deformed, Extremes, SectionPoint};
 pub use warping::Warping;
 
 /// A shape filled with one material whose points are free to move: the section contracts, bends the other way, ovalises and warps.
@@ -67,6 +67,12 @@ pub use warping::Warping;
 /// assert!(stiffness(&rigid)?[(5, 5)] > 3.7 * 1e6 * 1e-4); // (λ + 2μ) A
 /// # Ok(()) }
 /// ```
+///
+/// # Cost
+///
+/// Every response searches for the displacement, with all derivatives of the law at every point: hundreds of times the cost of a
+/// [`Section`](super::Section), a thousand on the highest rungs. Take the lowest one that is true of the rod
+/// ([`with_warping`](Self::with_warping), [`choose`](Self::choose)); the default is for torsion of shapes with corners.
 ///
 /// # Limits
 /// Polynomials serve thin-walled and re-entrant shapes poorly (10⁻² to 10⁻¹ in the torsion constant even at (7, 7)).
@@ -361,6 +367,22 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
 impl<S: Shape, M: Local> CrossSection for Relaxed<S, M> {
     fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
         Ok(self.respond_from(None, at, strain, request)?.0)
+    }
+}
+
+impl<S: Shape, M: Local> Deformable for Relaxed<S, M> {
+    fn deformed(&self, at: &Station, strain: &Strain) -> Result<Deformed<'_>> {
+        Self::deformed(self, at, strain)
+    }
+}
+
+impl<S: Shape, M: Local> Deformable for Section<S, M> {
+    fn deformed(&self, at: &Station, strain: &Strain) -> Result<Deformed<'_>> {
+        self.energy(at, strain)?; // refuses what cannot be strained so
+        let modes = Modes::new(self.points(at.s)?, self.shape().is_ring(), Warping::RIGID)?;
+        let coefficients = modes.expand(&DVector::zeros(0));
+        let (modes, pressures) = (Cow::Owned(modes), Vec::new());
+        Ok(Deformed { modes, law: self.material(), at: *at, strain: *strain, coefficients, pressures })
     }
 }
 
