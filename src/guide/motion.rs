@@ -46,8 +46,6 @@
 //! | stop, save and go on later | [`Stepper`](crate::solve::dynamics::Stepper), its `state()` (serde), `resume` |
 //! | know its frequencies | [`Dynamics::modes`](crate::solve::dynamics::Dynamics::modes) |
 //!
-//! A [`Payload`](crate::load::Payload) on the tip has a weight here, and no inertia: a mass at a point is not modelled yet.
-//!
 //! # Out of the crate
 //!
 //! A table of what an observer picks is written with `writeln!`. The stages of a frame are [`Node`](crate::solve::Node)s, so

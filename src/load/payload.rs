@@ -15,8 +15,7 @@ use crate::lie::{Pose, so3::hat};
 /// \mathcal M = \begin{bmatrix} J - M \hat r \hat r & M \hat r \\ -M \hat r & M \end{bmatrix} .
 /// ```
 ///
-/// It is a load, and brings no inertia: exact at rest, but a rod in [motion](crate::solve::dynamics) swings as if the body at its tip had a
-/// weight and no mass.
+/// A rod in [motion](crate::solve::dynamics) feels its inertia wherever it is put: at the tip, between, or on a base that can move.
 ///
 /// ```
 /// use hyperrod::load::Payload;
