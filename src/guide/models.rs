@@ -14,9 +14,9 @@
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! // the richest model that there is a reason for: a short rubber arm with the constants of a datasheet
-//! let (circle, rubber) = (Circle::new(0.02), NeoHookean::from_young(600e3, 0.45)?);
+//! let (circle, rubber) = (Circle::new(0.025), NeoHookean::from_young(600e3, 0.45)?);
 //! let section = Relaxed::new(circle.clone(), rubber)?.with_warping(Warping::SHEAR)?;
-//! let push = DeadWrench::force(vector![1.0, 0.0, 0.0])?; // N
+//! let push = DeadWrench::force(vector![5.0, 0.0, 0.0])?; // N
 //! let arm = Rod::clamped(Body::new(0.2, section)?, Pose::identity()).with_tip_load(push);
 //!
 //! let ladder = ModelLadder::of(&arm).with_section("rigid", Section::new(circle, rubber)?)?;
@@ -24,7 +24,7 @@
 //! println!("{suggestion}");
 //! let chosen = suggestion.chosen();
 //! assert_eq!((chosen.section.as_str(), chosen.strains), ("linear law", "planar xz"));
-//! let body = Body::new(0.2, Section::new(Circle::new(0.02), rubber)?)?.with_constraint(chosen.constraint);
+//! let body = Body::new(0.2, Section::new(Circle::new(0.025), rubber)?)?.with_constraint(chosen.constraint);
 //! # let _ = body; Ok(()) }
 //! ```
 //!
