@@ -28,12 +28,15 @@ mod table;
 mod timing;
 
 use figure::{Outcome, Output, flag};
+use indicatif::{ProgressBar, ProgressStyle};
 use page::Page;
 
 /// How the command was asked to run, and where its files go.
 struct Run {
     quick: bool,
     output: Output,
+    /// Counts what has been timed.
+    bar: ProgressBar,
 }
 
 impl Run {
@@ -58,17 +61,21 @@ fn main() -> Outcome {
     let quick = flag("--quick");
     let output = Output::of(if quick { "work_precision/quick" } else { "work_precision" })?;
     std::fs::create_dir_all(output.path("figures"))?;
-    let run = Run { quick, output };
+    let style = ProgressStyle::with_template("{spinner} {msg}: {pos} timed, {elapsed}")?;
+    let run = Run { quick, output, bar: ProgressBar::new_spinner().with_style(style) };
     let only: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
     let mut page = Page::new();
     for (name, measure, write) in PARTS {
         if !flag("--page") && (only.is_empty() || only.iter().any(|part| part == name)) {
+            run.bar.set_message(name);
             let start = std::time::Instant::now();
             measure(&run)?;
-            println!("{name}: measured in {:.1} s", start.elapsed().as_secs_f64());
+            let seconds = start.elapsed().as_secs_f64();
+            run.bar.suspend(|| println!("{name}: measured in {seconds:.1} s"));
         }
         write(&run, &mut page)?;
     }
+    run.bar.finish_and_clear();
     let path = run.output.path("work-precision.md");
     std::fs::write(&path, page.text())?;
     println!("work_precision: {} keys in {}", page.keys().len(), path.display());

@@ -7,6 +7,7 @@ use super::Run;
 
 /// Lower quartile of the time of a call, µs: as many calls as fit into a share of a second, at least three, at most a thousand.
 pub fn quartile(run: &Run, mut call: impl FnMut()) -> f64 {
+    run.bar.inc(1);
     let budget = run.of(2e3, 2e5);
     let mut times = Vec::new();
     let start = Instant::now();

@@ -14,9 +14,9 @@
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! // the richest model that there is a reason for: a short rubber arm with the constants of a datasheet
-//! let (circle, rubber) = (Circle::new(0.02), NeoHookean::from_young(600e3, 0.45)?);
+//! let (circle, rubber) = (Circle::new(0.025), NeoHookean::from_young(600e3, 0.45)?);
 //! let section = Relaxed::new(circle.clone(), rubber)?.with_warping(Warping::SHEAR)?;
-//! let push = DeadWrench::force(vector![1.0, 0.0, 0.0])?; // N
+//! let push = DeadWrench::force(vector![5.0, 0.0, 0.0])?; // N
 //! let arm = Rod::clamped(Body::new(0.2, section)?, Pose::identity()).with_tip_load(push);
 //!
 //! let ladder = ModelLadder::of(&arm).with_section("rigid", Section::new(circle, rubber)?)?;
@@ -24,7 +24,7 @@
 //! println!("{suggestion}");
 //! let chosen = suggestion.chosen();
 //! assert_eq!((chosen.section.as_str(), chosen.strains), ("linear law", "planar xz"));
-//! let body = Body::new(0.2, Section::new(Circle::new(0.02), rubber)?)?.with_constraint(chosen.constraint);
+//! let body = Body::new(0.2, Section::new(Circle::new(0.025), rubber)?)?.with_constraint(chosen.constraint);
 //! # let _ = body; Ok(()) }
 //! ```
 //!
@@ -46,9 +46,9 @@
 //! | relaxed section, anticlastic | <!-- quote: models.arm.relaxed_anticlastic.all.error -->1.2e-2 | <!-- quote: models.catheter.relaxed_anticlastic.all.error -->1.0e-5 | <!-- quote: models.steel.relaxed_anticlastic.all.error -->2.1e-6 |
 //! | relaxed section, shear, Kirchhoff | <!-- quote: models.arm.relaxed_shear.kirchhoff.error -->2.7e-2 | <!-- quote: models.catheter.relaxed_shear.kirchhoff.error -->5.7e-6 | <!-- quote: models.steel.relaxed_shear.kirchhoff.error -->1.5e-5 |
 //!
-//! A solve of the arm on 16 elements takes <!-- quote: models.arm.linear_law.planar_kirchhoff.us -->420 µs with the simplest of these,
-//! <!-- quote: models.arm.linear_law.all.us -->530 µs with a linear law and all strains, <!-- quote: models.arm.rigid_E_and_G_matched.all.us -->590 µs with a
-//! rigid neo-Hookean section and <!-- quote: models.arm.relaxed_shear.all.us -->150000 µs relaxed. So the section decides the cost, the strains little.
+//! A solve of the arm on 16 elements takes <!-- quote: models.arm.linear_law.planar_kirchhoff.us -->410 µs with the simplest of these,
+//! <!-- quote: models.arm.linear_law.all.us -->520 µs with a linear law and all strains, <!-- quote: models.arm.rigid_E_and_G_matched.all.us -->580 µs with a
+//! rigid neo-Hookean section and <!-- quote: models.arm.relaxed_shear.all.us -->110000 µs relaxed. So the section decides the cost, the strains little.
 //!
 //! * **Slender and stiff** (L/r from 100 on, strains of the material below 10⁻³): a linear law and Kirchhoff. Stiffnesses from E, G and the shape
 //!   ([`Stiffness`](crate::section::Stiffness)), or from a relaxed section at rest, once

@@ -29,7 +29,7 @@ impl AtRest {
     /// Ψ(0) + K(0) Δξ with its tangent, at the place next to s.
     fn linear(&self, s: f64, strain: &Strain) -> Response {
         let next = self.places.partition_point(|place| *place < s).min(self.responses.len() - 1);
-        let mut response = self.responses[next].clone();
+        let mut response = self.responses[next];
         response.wrench += Wrench::from_vector(&(response.tangent * strain.to_vector()));
         response
     }
