@@ -2,7 +2,7 @@ use nalgebra::{Matrix6, Vector3};
 
 use super::{LoadWrench, TipLoad};
 use crate::error::{Error, Result};
-use crate::lie::{Pose, Wrench, so3::hat};
+use crate::lie::{Pose, Wrench};
 
 /// A moment and a force with fixed direction and size in space: a hanging weight, a pull along a line.
 ///
@@ -54,11 +54,15 @@ impl DeadWrench {
 }
 
 /// A vector v fixed in space seen from a frame that turns by ζ = (w, ·): δ(Rᵀ v) = (Rᵀ v) × w.
+#[inline(always)]
 pub(super) fn dead(pose: &Pose, moment: &Vector3<f64>, force: &Vector3<f64>) -> (Wrench, Matrix6<f64>) {
     let wrench = Wrench::new(pose.rotation.tr_mul(moment), pose.rotation.tr_mul(force));
     let mut tangent = Matrix6::zeros();
-    tangent.fixed_view_mut::<3, 3>(0, 0).copy_from(&hat(&wrench.moment));
-    tangent.fixed_view_mut::<3, 3>(3, 0).copy_from(&hat(&wrench.force));
+    for (first, v) in [(0, &wrench.moment), (3, &wrench.force)] {
+        (tangent[(first + 1, 0)], tangent[(first + 2, 0)]) = (v.z, -v.y);
+        (tangent[(first, 1)], tangent[(first + 2, 1)]) = (-v.z, v.x);
+        (tangent[(first, 2)], tangent[(first + 1, 2)]) = (v.y, -v.x);
+    }
     (wrench, tangent)
 }
 

@@ -75,11 +75,17 @@ impl Stiffness {
         if request >= Request::Wrench {
             out.wrench = wrench;
         }
-        if request >= Request::Tangent {
+        if request >= Request::Tangent && !is_same(&out.tangent, &self.k) {
             out.tangent = self.k;
         }
         Ok(())
     }
+}
+
+/// Whether two matrices are equal, entry by entry without a branch: what is not written again need not go back to memory.
+#[inline(always)]
+fn is_same(a: &Matrix6<f64>, b: &Matrix6<f64>) -> bool {
+    a.as_slice().iter().zip(b.as_slice()).fold(true, |same, (a, b)| same & (a == b))
 }
 
 impl CrossSection for Stiffness {

@@ -1,9 +1,12 @@
 //! Rods without some of their strains: closed forms, the limit of growing stiffness, and the free rod where it does not use them.
 #![allow(clippy::unwrap_used)] // a test that cannot go on should panic
 
+#[path = "../fixed_mesh/mod.rs"]
+mod fixed_mesh;
 #[path = "../reference/mod.rs"]
 mod reference;
 
+use fixed_mesh::STATICS;
 use hyperrod::body::Constraint;
 use hyperrod::load::{DeadLoad, DeadWrench, ElasticFoundation, FollowerWrench};
 use hyperrod::material::NeoHookean;
@@ -12,15 +15,6 @@ use hyperrod::solve::{Order, Stability};
 use hyperrod::{Body, Pose, Rod, StaticSolution, Statics, Twist, Wrench};
 use nalgebra::{Vector3, vector};
 use reference::{data, number};
-
-const STATICS: Statics = Statics {
-    elements: 64,
-    order: Order::Six,
-    tolerance: 1e-10,
-    max_iterations: 50,
-    accuracy: None,
-    accept_unstable: true,
-};
 
 /// Largest difference at the nodes: positions and rotations, and wrenches relative to the largest.
 fn difference(a: &StaticSolution, b: &StaticSolution) -> f64 {

@@ -3,20 +3,12 @@
 use hyperrod::load::*;
 use hyperrod::material::LinearElastic;
 use hyperrod::section::{Circle, Section, Stiffness};
-use hyperrod::solve::Order;
-use hyperrod::{Body, Pose, Rod, StaticSolution, Statics, Wrench};
+use hyperrod::{Body, Pose, Rod, StaticSolution, Wrench};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6, vector};
 
+use super::fixed_mesh::STATICS;
 use super::shooting::{Shooting, State, ad_transpose, hat, join};
 
-const STATICS: Statics = Statics {
-    elements: 64,
-    order: Order::Six,
-    tolerance: 1e-10,
-    max_iterations: 50,
-    accuracy: None,
-    accept_unstable: true,
-};
 const LENGTH: f64 = 0.5;
 const K: [f64; 6] = [4e-2, 5e-2, 3e-2, 40.0, 45.0, 120.0];
 

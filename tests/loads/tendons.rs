@@ -5,22 +5,13 @@ use hyperrod::material::{NeoHookean, Reference, Request, Station};
 use hyperrod::section::{
     Actuated, Circle, Converging, CrossSection, Helical, Linear, PressureChamber, Section, Stiffness, Tendon,
 };
-use hyperrod::solve::Order;
 use hyperrod::{Body, Pose, Rod, Statics, Strain, Twist, Wrench};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6, vector};
 use num_dual::{Dual2_64, DualNum};
 
+use super::fixed_mesh::STATICS;
 use super::reference::{data, number, rotation};
 use super::shooting::{Shooting, State, ad_transpose, hat, join};
-
-const STATICS: Statics = Statics {
-    elements: 64,
-    order: Order::Six,
-    tolerance: 1e-10,
-    max_iterations: 50,
-    accuracy: None,
-    accept_unstable: true,
-};
 
 /// Closed form: tendons parallel to the axis give a constant strain, and g(L) = exp(L ξ^).
 #[test]

@@ -1,0 +1,13 @@
+//! The mesh on which what is independent of it is looked at: fine enough, and with any equilibrium for an answer.
+
+use hyperrod::Statics;
+use hyperrod::solve::Order;
+
+pub const STATICS: Statics = Statics {
+    elements: 64,
+    order: Order::Six,
+    tolerance: 1e-10,
+    max_iterations: 50,
+    accuracy: None,
+    accept_unstable: true,
+};
