@@ -4,7 +4,7 @@ use hyperrod::lie::Wrench;
 use hyperrod::material::{Invariants, Isotropic, Local, Point, Points, Response, Sectional};
 use hyperrod::scalar::{Kernel, Lane, dispatch};
 use hyperrod::{Scalar, Strain};
-use nalgebra::SVector;
+use nalgebra::{Matrix6, SVector};
 use num_dual::{Dual2SVec64, DualNum, hessian};
 
 /// C10, C01, C20, C11 and D1 (the multiplier of (J − 1)²), Pa.
@@ -57,10 +57,11 @@ impl Sectional for PolySectional {
     }
 }
 
+/// I₁ − 3 taken out of the terms that have it, as in the code derived by hand and in that for num-dual.
 #[inline(always)]
 fn poly5<D: Scalar>(i: D, j: D, e: D) -> D {
     let [c10, c01, c20, c11, d1] = POLY;
-    i * c10 + j * c01 + i * i * c20 + i * j * c11 + e * e * d1
+    i * (i * c20 + j * c11 + c10) + j * c01 + e * e * d1
 }
 
 #[inline(always)]
@@ -228,42 +229,64 @@ pub fn hand_vector(law: impl ByHand, points: &Points, strain: &Strain) -> Respon
     dispatch(Vectorised(law, points, strain))
 }
 
-/// u(γ) as a user of num-dual writes it where speed matters: few products of dual numbers.
+/// u(γ) as a user of num-dual writes it where speed matters: few products of dual numbers, and operators on references, since a copy of such a
+/// number costs as much as an operation.
 pub trait Direct {
-    fn energy_density(a: Six, b: Six, e: Six) -> Six;
+    fn energy_density(a: &Six, b: &Six, e: &Six) -> Six;
 }
 
 /// The dual number of `hessian()` in the six strains.
 pub type Six = Dual2SVec64<6>;
 
-#[allow(clippy::op_ref, reason = "a copy of such a number costs as much as an operation")]
 impl Direct for PolyByHand {
-    fn energy_density(a: Six, b: Six, e: Six) -> Six {
+    #[inline(always)]
+    fn energy_density(a: &Six, b: &Six, e: &Six) -> Six {
         let [c10, c01, c20, c11, d1] = POLY;
-        let (s, e_squared) = (&a * &a + &b * &b, &e * &e);
-        let q = &e_squared + e * 2.0;
+        let (s, e_squared) = (a * a + b * b, e * e);
+        let q = &e_squared + *e * 2.0;
         let (i, j) = (&s + &q, s + q * 2.0);
         &i * &(i * c20 + j * c11 + c10) + j * c01 + e_squared * d1
     }
 }
 
-#[allow(clippy::op_ref, reason = "as above")]
 impl Direct for NeoHookeanByHand {
-    fn energy_density(a: Six, b: Six, e: Six) -> Six {
+    #[inline(always)]
+    fn energy_density(a: &Six, b: &Six, e: &Six) -> Six {
         let [mu, lambda] = LAME;
         let ln = e.ln_1p();
-        (&a * &a + &b * &b + &e * &e + (e - &ln) * 2.0) * (0.5 * mu) + &ln * &ln * (0.5 * lambda)
+        (a * a + b * b + e * e + (e - &ln) * 2.0) * (0.5 * mu) + &ln * &ln * (0.5 * lambda)
     }
 }
 
-/// num-dual's `hessian()` in the six strains, one point at a time; points and weights are plain numbers.
-pub fn num_dual_six<H: Direct>(_law: H, points: &Points, strain: &Strain) -> Response {
+/// u at a point in the six strains; points are plain numbers.
+#[inline(always)]
+fn at_point<H: Direct>(v: &SVector<Six, 6>, x: f64, y: f64) -> Six {
+    let a = &v[3] - v[2] * y;
+    let b = &v[4] + v[2] * x;
+    let e = &v[5] + v[0] * y - v[1] * x;
+    H::energy_density(&a, &b, &e)
+}
+
+/// num-dual's `hessian()` in the six strains at each point, summed in plain numbers.
+pub fn num_dual_by_points<H: Direct>(_law: H, points: &Points, strain: &Strain) -> Response {
+    let xi = strain.to_vector();
+    let (mut energy, mut gradient, mut tangent) = (0.0, SVector::<f64, 6>::zeros(), Matrix6::zeros());
+    for ((&x, &y), &w) in points.x.iter().zip(&points.y).zip(&points.weight) {
+        let (u, first, second) = hessian(|v: SVector<Six, 6>| at_point::<H>(&v, x, y), &xi);
+        energy += u * w;
+        gradient += first * w;
+        tangent += second * w;
+    }
+    let wrench = Wrench::from_vector(&gradient);
+    Response { energy, wrench, tangent, wrench_rate: Wrench::zero() }
+}
+
+/// num-dual's `hessian()` of the sum over the points.
+pub fn num_dual_of_sum<H: Direct>(_law: H, points: &Points, strain: &Strain) -> Response {
     let integral = |v: SVector<Six, 6>| {
-        let [o_x, o_y, o_z, n_x, n_y, n_z] = v.into();
         let mut sum = Six::from_re(0.0);
         for ((&x, &y), &w) in points.x.iter().zip(&points.y).zip(&points.weight) {
-            let (a, b, e) = (n_x - o_z * y, n_y + o_z * x, n_z + o_x * y - o_y * x);
-            sum += H::energy_density(a, b, e) * w;
+            sum += at_point::<H>(&v, x, y) * w;
         }
         sum
     };

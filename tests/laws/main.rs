@@ -15,6 +15,7 @@ mod section_reference;
 mod admissibility;
 mod check;
 mod conformance;
+mod fifty_digits;
 mod levels;
 mod reference;
 mod section_solves;
