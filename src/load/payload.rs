@@ -7,12 +7,12 @@ use crate::lie::{Pose, so3::hat};
 
 /// A rigid body fixed to a section: its weight, through its centre of mass, and in motion its inertia.
 ///
-/// With the mass M, its centre r and the moments of inertia J about that, in the frame of the section, the weight g M and the matrix 𝓜 of
-/// the body's momentum 𝓜 η are
+/// With the mass M, its centre r and the moments of inertia J about that, in the frame of the section, the weight and the matrix N of the
+/// body's momentum N η are
 ///
 /// ```math
 /// n = M R^{\mathsf T} g, \qquad m = r \times n, \qquad V = -M g \cdot (p + R r), \qquad
-/// \mathcal M = \begin{bmatrix} J - M \hat r \hat r & M \hat r \\ -M \hat r & M \end{bmatrix} .
+/// N = \begin{bmatrix} J - M \hat r \hat r & M \hat r \\ -M \hat r & M \end{bmatrix} .
 /// ```
 ///
 /// A rod in [motion](crate::solve::dynamics) feels its inertia wherever it is put: at the tip, between, or on a base that can move.

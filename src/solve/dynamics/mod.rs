@@ -5,6 +5,7 @@
 //! a static problem with another load, whose tangent is exact but for what is of higher order than the element.
 
 mod alpha;
+mod balance;
 mod begin;
 mod border;
 mod conserve;
@@ -30,6 +31,7 @@ mod scene;
 mod scheme;
 mod state;
 mod strain_rates;
+mod whole;
 
 pub use failure::{Failure, Reason};
 pub use frame::{Energies, Frame, MovingNode, MovingStage};

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix6, Vector3, Vector6};
 use num_dual::Dual2_64;
 
-use super::core::inertia;
+use super::balance::inertia;
 use super::place::{Amplitudes, Place, none};
 use super::relation::{Offset, Rates, Relation};
 use super::scene::{Movable, Scene};
