@@ -8,7 +8,7 @@ use hyperrod::{Scalar, Strain};
 use std::hint::black_box;
 
 use super::engine_cases::{
-    LAME, NeoHookeanByHand, PolyByHand, PolyIsotropic, difference, hand_scalar, hand_vector, num_dual_six,
+    LAME, NeoHookeanByHand, PolyByHand, PolyIsotropic, difference, hand_scalar, hand_vector, num_dual_of_sum,
     rings, strains,
 };
 use super::figure::{Chart, Outcome, stack};
@@ -156,11 +156,11 @@ fn by_hand(run: &Run) -> Outcome {
     let mut calls = [
         each(strains, |x| hand_scalar(PolyByHand, points, x)),
         each(strains, |x| hand_vector(PolyByHand, points, x)),
-        each(strains, |x| num_dual_six(PolyByHand, points, x)),
+        each(strains, |x| num_dual_of_sum(PolyByHand, points, x)),
         engine(strains, &PolyIsotropic, points),
         each(strains, |x| hand_scalar(NeoHookeanByHand, points, x)),
         each(strains, |x| hand_vector(NeoHookeanByHand, points, x)),
-        each(strains, |x| num_dual_six(NeoHookeanByHand, points, x)),
+        each(strains, |x| num_dual_of_sum(NeoHookeanByHand, points, x)),
         engine(strains, &neo, points),
         engine(strains, &NeoLocal, points),
         engine(strains, &NeoSectional, points),
