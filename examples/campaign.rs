@@ -4,7 +4,8 @@
 //! cargo run --release --example campaign -- --count 10000 --seed 1
 //! ```
 //!
-//! writes a row for every case to `target/hyperrod/campaign.csv`. The same seed gives the same cases; `--only N` solves one of them and tells more.
+//! writes a row for every case to `target/hyperrod/campaign.csv`. The same seed gives the same cases; `--only N` solves one of them
+//! and follows its equilibria from rest, as far as the load can grow.
 #![allow(clippy::print_stdout)]
 
 use std::fmt::Write as _;
@@ -18,7 +19,7 @@ use hyperrod::material::{
 };
 use hyperrod::rod::{Freedom, Support};
 use hyperrod::section::{Annulus, Circle, CrossSection, Linear, Rectangle, Section, Shape, Stiffness};
-use hyperrod::solve::{Failure, Stability};
+use hyperrod::solve::{Failure, PathOptions, PathState, Stability};
 use hyperrod::{Body, Pose, Rod, StaticSolution, Statics, Twist, Wrench};
 use nalgebra::{UnitQuaternion, Vector3, vector};
 
@@ -258,8 +259,31 @@ enum Outcome {
     Panicked,
 }
 
+fn random(seed: u64, number: u64) -> Random {
+    Random(seed.wrapping_mul(0x2545f4914f6cdd1d) ^ number.wrapping_mul(0xd1342543de82ef95))
+}
+
+/// How far the load of a case can grow on the path from rest.
+fn look_into(seed: u64, number: u64) -> Result<(), Box<dyn std::error::Error>> {
+    let (rod, _) = scene(&mut random(seed, number))?;
+    // as the last rung of a solve walks it, but further
+    let path = Statics { elements: 32, ..Statics::default() }.trace(&rod, &PathOptions::default())?;
+    for point in path.points.iter().step_by(1 + path.points.len() / 20).chain(path.points.last()) {
+        let PathState { load_factor, arc_length, solution, .. } = point;
+        println!(
+            "load factor {load_factor:.6} at arc length {arc_length:.3}: {}",
+            solution.report().stability
+        );
+    }
+    for event in &path.events {
+        println!("{:?} at load factor {:.6}", event.kind, event.state.load_factor);
+    }
+    println!("the path ends after {} points: {:?}", path.points.len(), path.end);
+    Ok(())
+}
+
 fn solve(seed: u64, number: u64) -> (Outcome, Labels, f64) {
-    let mut random = Random(seed.wrapping_mul(0x2545f4914f6cdd1d) ^ number.wrapping_mul(0xd1342543de82ef95));
+    let mut random = random(seed, number);
     let start = Instant::now();
     let run = catch_unwind(AssertUnwindSafe(|| match scene(&mut random) {
         Err(error) => (Outcome::Refused(error), Labels::default()),
@@ -367,6 +391,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::path::Path::new("target/hyperrod");
     std::fs::create_dir_all(folder)?;
     std::fs::write(folder.join("campaign.csv"), table)?;
+    if let Some(number) = only {
+        look_into(seed, number)?;
+    }
     let total = only.map_or(count, |_| 1);
     println!(
         "campaign: {solved} of {total} solved, {errors} errors, {panics} panics, {nan} nan, worst {worst:.3} s"

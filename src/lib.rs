@@ -174,7 +174,6 @@
 //!
 //! # What is not there yet
 //!
-//! * Dynamics with supports other than a clamp that may move or a free base, with joints, or with fixed strains: refused by name.
 //! * Rods joined to rods; contact; gradients of a solve in its parameters.
 //! * Thin-walled and re-entrant sections that relax: polynomials serve them poorly.
 

@@ -40,13 +40,13 @@ fn difference(a: &StaticSolution, b: &StaticSolution) -> f64 {
 
 /// The cantilever all supports below are held against: bent by more than a radian.
 fn cantilever() -> StaticSolution {
-    let pull = DeadWrench::new(vector![0.15, -0.1, 0.25], vector![0.6, 0.3, -0.2]).unwrap();
+    let pull = DeadWrench::new(vector![0.3, -0.2, 0.5], vector![1.5, 0.7, -0.4]).unwrap();
     fine().solve(&Rod::clamped(strip(), Pose::identity()).with_tip_load(pull)).unwrap()
 }
 
 /// Somewhere near `pose`, so that what a support holds is not zero.
 fn nearby(pose: &Pose) -> Pose {
-    *pose * hyperrod::lie::se3::exp(&Twist::from_array([0.1, -0.05, 0.08, 0.015, -0.01, 0.02]))
+    *pose * hyperrod::lie::se3::exp(&Twist::from_array([0.2, -0.1, 0.15, 0.03, -0.02, 0.04]))
 }
 
 fn coordinates(frame: &Pose, pose: &Pose) -> [f64; 6] {

@@ -143,6 +143,11 @@ impl<C: CrossSection, M: Send + Sync> Body<C, M> {
 }
 
 /// What the equilibrium of a rod asks of its body; implemented by every [`Body`].
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not the body of a rod",
+    label = "a body is needed here",
+    note = "`Body::new(length, section)?` makes one; a `Result` with a body in it still wants its `?`"
+)]
 pub trait Elastic: Send + Sync {
     /// Length L, m.
     fn length(&self) -> f64;

@@ -12,6 +12,7 @@
 //! | `NoAdmissibleStep` | every step turns the material inside out (J ≤ 0) or leaves the law's domain | look at the place, and at half the load; another law in compression |
 //! | `Singular` | the tangent has no inverse | a limit point of the load: nothing stands beyond it; or a section without stiffness |
 //! | `Unstable` | there is an equilibrium, and it would not stay | see [below](#equilibria-that-would-not-stay) |
+//! | `LimitPoint` | on the path from rest the load cannot grow to what is asked | look at `last`, the rod at the largest load, and at its load factor |
 //! | `IterationLimit` | it did not settle | raise the limit if `step` was still falling; look at half the load |
 //! | `Accuracy` | the mesh limit or rounding came first | ask for less |
 //!

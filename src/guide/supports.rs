@@ -63,6 +63,42 @@
 //! [`Actuator`](crate::section::Actuator) of your own is one generic function, as a law is. Actuators act from s = 0; one that
 //! [ends](crate::section::Tendon::ending_at) before the tip gives the mesh a node there.
 //!
+//! A rod owns its loads and actuators, so a sweep makes a rod for every tension. A function that takes any section asks for a
+//! [`CrossSection`](crate::section::CrossSection), and for its [`Geometry`](crate::section::Geometry) where a density shall become a mass:
+//!
+//! ```
+//! use hyperrod::body::Density;
+//! use hyperrod::load::{Gravity, Payload};
+//! use hyperrod::material::NeoHookean;
+//! use hyperrod::section::{Circle, Converging, CrossSection, Geometry, Linear, Section, Tendon};
+//! use hyperrod::{Body, Pose, Rod, Statics};
+//! use nalgebra::{Isometry3, vector};
+//! use std::f64::consts::PI;
+//!
+//! const LENGTH: f64 = 0.2; // m
+//!
+//! fn arm<C: CrossSection + Geometry>(section: C) -> hyperrod::Result<Rod<Body<C, Density>>> {
+//!     let body = Body::new(LENGTH, section)?.with_density(1100.0)?;
+//!     let hanging = Pose::from(Isometry3::rotation(vector![PI, 0.0, 0.0])); // along −Z
+//!     Ok(Rod::clamped(body, hanging).with_load(Gravity::standard()).with_tip_load(Payload::new(0.020)?))
+//! }
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let taper = Linear { from: 0.006, to: 0.003, length: LENGTH };
+//! let section = Section::new(Circle::new(taper), NeoHookean::new(270e3, 270e3)?)?;
+//! let inside = Converging { from: [4e-3, 0.0], to: [2e-3, 0.0], length: LENGTH }; // as the arm tapers, so does the tendon
+//! for tension in [0.0, 0.5, 1.0] {
+//!     let solution = Statics::to(1e-6).solve(&arm(section.clone().with_actuator(Tendon::new(inside, tension)?))?)?;
+//!     let (tip, report) = (solution.tip().pose.position, solution.report());
+//!     println!("{tension} N: x {:.5} z {:.5} m, error {:.0e} m, {}", tip.x, tip.z, report.error.position, report.stability);
+//!     assert!(tip.x > 0.005 * tension - 1e-9 && report.error.position < 1e-6 * LENGTH);
+//! }
+//! # Ok(()) }
+//! ```
+//!
+//! Every solve begins at rest, so it does not matter which tensions came before. Where several equilibria are stable, as when an arm curls up,
+//! neighbours in a sweep may lie on different branches: a jump in the table, or a coordinate that was zero, shows it.
+//!
 //! The strain energy that a solution reports contains the energy of its actuators: tension times length, less pressure times volume.
 //!
 //! In motion a tension or a pressure is a function of time; see [`motion`](super::motion).

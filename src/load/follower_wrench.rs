@@ -10,10 +10,11 @@ use crate::lie::{Pose, Wrench};
 ///
 /// ```
 /// use hyperrod::load::FollowerWrench;
-/// use nalgebra::{Vector3, vector};
+/// use nalgebra::vector;
 /// # fn main() -> hyperrod::Result<()> {
-/// let thruster = FollowerWrench::new(Vector3::zeros(), vector![0.0, 0.0, -4.0])?; // back along the rod's own axis
-/// # let _ = thruster; Ok(()) }
+/// let thruster = FollowerWrench::force(vector![0.0, 0.0, -4.0])?; // N, back along the rod's own axis
+/// let key = FollowerWrench::moment(vector![0.0, 0.0, 0.3])?; // N m, twists the tip about that axis
+/// # let _ = (thruster, key); Ok(()) }
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FollowerWrench {
@@ -34,6 +35,22 @@ impl FollowerWrench {
                 Err(Error::Invalid { quantity, value, requirement: "finite" })
             }
         }
+    }
+
+    /// A force alone, N, in the body frame.
+    ///
+    /// # Errors
+    /// If a component is not finite.
+    pub fn force(force: Vector3<f64>) -> Result<Self> {
+        Self::new(Vector3::zeros(), force)
+    }
+
+    /// A moment alone, N m, in the body frame.
+    ///
+    /// # Errors
+    /// If a component is not finite.
+    pub fn moment(moment: Vector3<f64>) -> Result<Self> {
+        Self::new(moment, Vector3::zeros())
     }
 }
 

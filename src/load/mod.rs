@@ -8,7 +8,7 @@
 //! | [`Gravity`] | length | [a mass](crate::body::HasMass) | yes |
 //! | [`Buoyancy`] | length | [an area](crate::body::HasArea) | yes |
 //! | [`DeadLoad`], [`DeadWrench`] | length, tip | | of the force |
-//! | [`Payload`] | tip | | yes |
+//! | [`Payload`] | tip | | yes; in motion it has inertia too |
 //! | [`FollowerLoad`], [`FollowerWrench`] | length, tip | | no |
 //! | [`ElasticFoundation`] | length | | yes |
 //! | [`distributed`], [`distributed_on`], [`at_tip`]: a closure that gives the wrench | length, tip | what it asks for | no |
@@ -84,6 +84,12 @@ pub trait TipLoad: Send + Sync {
     /// # Errors
     /// Where the load is not defined.
     fn at(&self, pose: &Pose) -> Result<LoadWrench>;
+
+    /// The inertia matrix M of a rigid body that the load brings along, in the frame of the section and in the order (angular, linear): at a body
+    /// velocity η it has the momentum M η. It counts in motion; most loads bring none.
+    fn inertia(&self) -> Option<Matrix6<f64>> {
+        None
+    }
 }
 
 /// The example of the decision, compiled as a test.

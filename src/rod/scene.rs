@@ -104,7 +104,7 @@ impl<B: Elastic> Rod<B> {
     /// The joint at s.
     fn joint(&mut self, s: f64) -> Result<&mut Joint> {
         if !(s > 0.0 && s < self.body.length()) {
-            let requirement = "inside (0, L), between the ends of the rod";
+            let requirement = "inside (0, L), between the ends: those have `with_tip_load`, `with_base_load` and `Rod::between`";
             return Err(Error::Invalid { quantity: "arc length of a joint", value: s, requirement });
         }
         let place = self.joints.partition_point(|joint| joint.s < s);

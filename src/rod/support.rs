@@ -1,4 +1,4 @@
-use nalgebra::{Matrix6, SVector, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, SVector, Vector3, Vector6};
 use num_dual::{DualSVec64, jacobian};
 
 use crate::error::{Error, Result};
@@ -49,6 +49,9 @@ pub enum Condition {
     },
 }
 
+/// A rotation of less than this, rad, is not looked at from the other side: near a full turn rotation vectors are singular.
+const TURNED: f64 = 1.0;
+
 /// What holds a section of the rod: at its base, at its tip, or between.
 ///
 /// Against the frame G of the support a section at g has the coordinates
@@ -57,7 +60,8 @@ pub enum Condition {
 /// \chi = \bigl(\log(R_G^{\mathsf T} R),\; R_G^{\mathsf T}(p - p_G)\bigr)
 /// ```
 ///
-/// and each of the six is free, held at a value, or on a spring. The rod finds the forces that do it.
+/// and each of the six is free, held at a value, or on a spring. The rod finds the forces that do it. Of the rotation vectors of one rotation, which differ by
+/// full turns, the one closest to the values held is meant.
 ///
 /// ```
 /// use hyperrod::rod::{Freedom, Support};
@@ -176,8 +180,25 @@ impl Support {
     /// The coordinates χ of a pose.
     pub(crate) fn coordinates(&self, pose: &Pose) -> [f64; 6] {
         let relative = self.frame.inverse() * *pose;
-        let (turn, place) = (so3::log(&relative.rotation), relative.position);
+        let (turn, place) = (self.turn(&relative.rotation, &self.held()), relative.position);
         [turn.x, turn.y, turn.z, place.x, place.y, place.z]
+    }
+
+    /// The rotation vector of a rotation against the frame. Those that differ by a full turn are the same rotation: the one closer to what is held is
+    /// meant, and of two that are as close the shorter, so that a hinge goes on through half a turn.
+    fn turn<D: Scalar>(&self, rotation: &Matrix3<D>, target: &[f64; 6]) -> Vector3<D> {
+        let turn = so3::log(rotation);
+        let size = turn.map(|t| t.re()).norm();
+        if size < TURNED {
+            return turn;
+        }
+        let norm = (turn.x * turn.x + turn.y * turn.y + turn.z * turn.z).sqrt();
+        let other = turn * (D::one() - norm.recip() * std::f64::consts::TAU);
+        let misfit = |turn: &Vector3<D>| -> f64 {
+            let fixed = (0..3).filter(|&j| matches!(self.conditions[j], Condition::Fixed(_)));
+            fixed.map(|j| (turn[j].re() - target[j]).powi(2)).sum()
+        };
+        if misfit(&other) < misfit(&turn) * (1.0 - 1e-9) { other } else { turn }
     }
 
     /// The values that the held freedoms have, 0 for the others.
@@ -199,7 +220,7 @@ impl Support {
     /// χ_j − target_j where it holds, Q_j where it is free, Q_j + k (χ_j − rest) on a spring, with Q = (∂ζ/∂χ)ᵀ (applied − load).
     fn equations<D: Scalar>(&self, pose: &Pose<D>, reaction: &Wrench<D>, target: &[f64; 6]) -> SVector<D, 6> {
         let relative = self.frame.inverse().cast::<D>() * *pose;
-        let (turn, place) = (so3::log(&relative.rotation), relative.position);
+        let (turn, place) = (self.turn(&relative.rotation, target), relative.position);
         // w = dexp₋φ φ̇, v = R_relᵀ ẋ; free about every axis, the moment itself vanishes, wherever the section has turned
         let released = self.conditions[..3].iter().all(|c| *c == Condition::Free);
         let moment = if released { reaction.moment } else { so3::dexp(&turn) * reaction.moment };

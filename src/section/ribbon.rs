@@ -38,14 +38,14 @@ impl Ribbon {
         for (quantity, value) in [
             ("width of the ribbon", width),
             ("thickness of the ribbon", thickness),
-            ("Young's modulus", young),
+            ("Young's modulus of the ribbon", young),
         ] {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(Error::Invalid { quantity, value, requirement: "positive and finite" });
             }
         }
         if !(poisson > -1.0 && poisson <= 0.5) {
-            let quantity = "Poisson's ratio";
+            let quantity = "Poisson's ratio of the ribbon";
             return Err(Error::Invalid { quantity, value: poisson, requirement: "in (-1, 0.5]" });
         }
         let area = width * thickness;
@@ -73,5 +73,9 @@ impl Resultant for Ribbon {
             + (nu.x * nu.x + nu.y * nu.y) * self.shear
             + nu.z * nu.z * self.axial;
         (q * self.plate + stiff) * 0.5
+    }
+
+    fn domain(&self) -> &'static str {
+        "finite for Sadowsky's ribbon"
     }
 }

@@ -19,6 +19,11 @@ use crate::quadrature::{MAX_DEGREE, Rule};
 /// let strand = Rectangle::new(4e-3, 1e-3).shifted(5e-3, 0.0).rotated(|s: Dual64| s * (std::f64::consts::TAU / 0.2));
 /// assert!(!strand.is_constant());
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a shape of a section",
+    label = "a shape is needed here",
+    note = "the shape comes first, the law second: `Section::new(Circle::new(radius), law)?`"
+)]
 pub trait Shape: Send + Sync {
     /// A rule on the fixed domain such that its image integrates polynomials in (x, y) of this degree exactly, at every s.
     ///

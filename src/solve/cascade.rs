@@ -33,7 +33,7 @@ const SAFETY: f64 = 2.0;
 const SAFETY_OF_ONE: f64 = 16.0;
 
 /// An element is cut into at most this many pieces at a time: further the prediction does not reach.
-const MOST_PARTS: f64 = 6.0;
+const MOST_PARTS: f64 = 7.0;
 
 /// As [`MOST_PARTS`], of the first mesh, whose error is only guessed.
 const FIRST_PARTS: f64 = 4.0;
@@ -44,18 +44,29 @@ const FIRST_NEWTON: f64 = 1e-3;
 /// The error that Newton's method may leave on a mesh, of that of the mesh.
 const NEWTON_SHARE: f64 = 0.02;
 
+/// A larger amplification is that of a residual which does not see what the step mends: supports that move a rod at rest.
+const MOST_AMPLIFIED: f64 = 1e3;
+
 /// How often a first mesh on which Newton's method fails is made four times finer.
 const FIRST_MESHES: u32 = 3;
 
 pub(super) struct Cascade<'r, 'o, B, const S: usize> {
     rod: &'r Rod<B>,
-    newton: Newton<'o>,
+    pub(super) newton: Newton<'o>,
     pub(super) buffers: &'o mut Buffers<S>,
     pub(super) report: Report,
     /// Whether an equilibrium that would not stay is an answer.
     pub(super) accept_unstable: bool,
     /// Whether the first mesh already is to have a stable state: after an answer that was none.
     pub(super) careful: bool,
+    /// The first of the meshes on which the further rungs are climbed.
+    pub(super) tier: usize,
+    /// Whether every rung was climbed in vain.
+    pub(super) exhausted: bool,
+    /// The failure for which the further rungs are to be climbed at once.
+    pub(super) failed: Option<Box<Failure>>,
+    /// Where the path from rest turns back, if it does: the load factor and the rod there.
+    pub(super) turned: Option<(f64, StaticSolution)>,
     /// Neutral modes of the last state whose stability was told.
     pub(super) neutral: usize,
 }
@@ -69,22 +80,33 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         buffers: &'o mut Buffers<S>,
         accept_unstable: bool,
     ) -> Self {
-        Self { rod, newton, buffers, report: Report::default(), accept_unstable, careful: false, neutral: 0 }
+        Self {
+            rod,
+            newton,
+            buffers,
+            report: Report::default(),
+            accept_unstable,
+            careful: false,
+            tier: 0,
+            exhausted: false,
+            failed: None,
+            turned: None,
+            neutral: 0,
+        }
     }
 
     /// A mesh of so many equal elements, then one of twice as many, which is the answer.
     pub(super) fn on_mesh(&mut self, coarse_elements: usize) -> Solved {
-        self.twice(|cascade| cascade.on_mesh_once(coarse_elements))
+        self.persistently(|cascade| cascade.on_mesh_once(coarse_elements))
     }
 
-    /// Once more, looking for a stable state from the first mesh on, where the answer is not one.
-    fn twice(&mut self, solve: impl Fn(&mut Self) -> Solved) -> Solved {
-        match solve(self) {
-            Err(failure) if !self.careful && retried(&failure.reason) => {
-                self.careful = true;
-                solve(self)
+    /// Again, from a start that is looked for with more care, where there may be an answer that was not found.
+    fn persistently(&mut self, solve: impl Fn(&mut Self) -> Solved) -> Solved {
+        loop {
+            match solve(self) {
+                Err(failure) if retried(&failure.reason) && self.next_try(&failure) => {}
+                solved => return solved,
             }
-            solved => solved,
         }
     }
 
@@ -96,12 +118,14 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         let mut mesh = coarse_mesh.refined(&parts);
         let start = coarse.unknowns.prolonged(&coarse_mesh, &parts, None);
         self.hold_neutral_modes(&mut mesh, &start);
-        let fine = self.solve(&mesh, start)?;
+        let fine = self.solve_near(&mesh, start)?;
         if let (Some(coarse), Some(fine)) = (&coarse.state, &fine.state) {
             // a difference of (2^p − 1) errors of the finer one
             let factor = 1.0 / (4.0_f64.powi(S as i32) - 1.0);
             let length = self.rod.body().length();
-            self.report.error = difference(coarse, fine, parts.into_iter(), length).scaled(factor);
+            self.report.error = difference(coarse, fine, parts.into_iter(), length)
+                .scaled(factor)
+                .at_least(self.rounding(mesh.elements()), length);
         }
         let answer = self.answer(&mesh, &fine, None);
         for outcome in [coarse, fine] {
@@ -112,7 +136,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
 
     /// Cuts elements until the estimated error is below `accuracy`.
     pub(super) fn to(&mut self, accuracy: f64) -> Solved {
-        self.twice(|cascade| cascade.reach_once(accuracy))
+        self.persistently(|cascade| cascade.reach_once(accuracy))
     }
 
     fn reach_once(&mut self, accuracy: f64) -> Solved {
@@ -131,7 +155,8 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
             self.newton.stop =
                 Stop::Error((NEWTON_SHARE * predicted.max(accuracy)).clamp(1e-18, FIRST_NEWTON));
             let fine = self.level(mesh, start)?;
-            self.report.error = estimate(&level, &fine, &parts, length);
+            self.report.error =
+                estimate(&level, &fine, &parts, length).at_least(self.rounding(fine.mesh.elements()), length);
             let estimated = self.report.error.relative(length);
             if estimated <= accuracy {
                 let answer = self.answer(&fine.mesh, &fine.outcome, Some(&fine.defect.ends));
@@ -160,6 +185,12 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         let reason = Reason::Accuracy { asked: accuracy, estimated, elements };
         let last = self.answer(&level.mesh, &level.outcome, Some(&level.defect.ends)).ok();
         Err(Box::new(Failure { reason, report: self.report.clone(), last }))
+    }
+
+    /// What rounding alone leaves: poses are products along the mesh, whose errors of ε each add up as a random walk; wrenches are known to ε of the
+    /// largest, of which Newton's method makes [`amplification`](Newton::amplification) times as much.
+    fn rounding(&self, elements: usize) -> f64 {
+        f64::EPSILON * ((elements as f64).sqrt() + self.newton.amplification.min(MOST_AMPLIFIED))
     }
 
     /// Refuses a rod that nothing holds.
@@ -202,7 +233,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         start: Unknowns<S>,
     ) -> Result<Level<'r, B, S>, Box<Failure>> {
         self.hold_neutral_modes(&mut mesh, &start);
-        let outcome = self.solve(&mesh, start)?;
+        let outcome = self.solve_near(&mesh, start)?;
         Ok(Self::level_of(mesh, outcome))
     }
 
@@ -228,6 +259,19 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         Ok(outcome)
     }
 
+    /// As [`solve`](Self::solve), from a coarser mesh's answer: where Newton's method leaves it, by the convex model.
+    fn solve_near(&mut self, mesh: &Mesh<'r, B, S>, start: Unknowns<S>) -> Result<Outcome<S>, Box<Failure>> {
+        if !self.careful {
+            // what fails may have begun with a state that is none
+            return self.solve(mesh, start);
+        }
+        let from = start.clone();
+        self.solve(mesh, start).or_else(|failure| {
+            let found = self.descend(mesh, &from).ok_or(failure)?;
+            self.solve(mesh, found)
+        })
+    }
+
     fn answer(
         &mut self,
         mesh: &Mesh<'_, B, S>,
@@ -251,7 +295,14 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
 
 /// Whether a failure may be one of a state that would not stay, or that costs nothing to turn.
 fn retried(reason: &Reason) -> bool {
-    matches!(reason, Reason::Unstable { .. } | Reason::Accuracy { .. })
+    matches!(
+        reason,
+        Reason::Unstable { .. }
+            | Reason::Accuracy { .. }
+            | Reason::IterationLimit { .. }
+            | Reason::Singular { .. }
+            | Reason::NoAdmissibleStep { .. }
+    )
 }
 
 /// The error of the finer of two meshes: d = E − E′ and E′ ≈ R E, with the gain R read off the defects, or off the order of the element

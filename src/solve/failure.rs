@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{Report, Stability, StaticSolution};
+use super::{Report, Rung, Stability, StaticSolution};
 use crate::error::Error;
 
 /// Why a solve ended without an answer.
@@ -68,9 +68,17 @@ pub enum Reason {
         /// How many solves were made.
         solves: usize,
     },
+    /// The path of equilibria from rest turns back before the full load, and none was found beyond.
+    #[error(
+        "no equilibrium was found: from rest the load can grow to {load_factor:.4} of what is asked; there the rod snaps, or moves on and on"
+    )]
+    LimitPoint {
+        /// The largest load factor on the path. The last state of the failure is the equilibrium there.
+        load_factor: f64,
+    },
     /// The iteration limit was reached.
     #[error(
-        "no convergence in {limit} iterations: last step {step:.3e}, asked {tolerance:.1e}; apply the load in steps, or raise the limit"
+        "no convergence in {limit} iterations: last step {step:.3e}, asked {tolerance:.1e}, nor by way of smaller loads; raise the limit, or trace the path to see how far the load can grow"
     )]
     IterationLimit {
         /// The limit.
@@ -84,17 +92,26 @@ pub enum Reason {
 
 /// A solve that failed: why, how it went, and the last state it had.
 ///
-/// Its `Debug` form, which a `main` that returns it prints, is short: the reason and the number of iterations.
+/// Its `Debug` form, which a `main` that returns it prints, is short: the reason, what was tried and the number of iterations.
 #[derive(Clone, PartialEq, Error)]
-#[error("static solve failed: {reason}")]
+#[error("static solve failed: {reason}{}", tried(.report))]
 pub struct Failure {
     /// Why.
     #[source]
     pub reason: Reason,
     /// How it went.
     pub report: Report,
-    /// The last admissible state, not an equilibrium; `None` if there was none.
+    /// The last admissible state, an equilibrium where the reason says so; `None` if there was none.
     pub last: Option<StaticSolution>,
+}
+
+/// What was tried, where that was more than Newton's method.
+fn tried(report: &Report) -> String {
+    if report.rungs.iter().all(|rung| *rung == Rung::Newton) {
+        return String::new();
+    }
+    let rungs: Vec<String> = report.rungs.iter().map(Rung::to_string).collect();
+    format!(" (tried: {})", rungs.join(", "))
 }
 
 impl std::fmt::Debug for Failure {

@@ -39,9 +39,15 @@ pub(crate) struct Start {
 impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
     /// So many elements, of equal length but for joints and breakpoints; more where those ask for more.
     pub(crate) fn uniform(rod: &'a Rod<B>, elements: usize) -> Self {
+        Self::with_stops(rod, elements, &[])
+    }
+
+    /// As [`uniform`](Self::uniform), with nodes at more places.
+    pub(crate) fn with_stops(rod: &'a Rod<B>, elements: usize, places: &[f64]) -> Self {
         let length = rod.body().length();
         let mut stops: Vec<f64> = rod.joints().iter().map(|joint| joint.s).collect();
-        stops.extend(rod.body().breakpoints().into_iter().filter(|s| *s > 0.0 && *s < length));
+        let breaks = rod.body().breakpoints();
+        stops.extend(breaks.iter().chain(places).filter(|s| **s > 0.0 && **s < length));
         stops.push(length);
         stops.sort_by(f64::total_cmp);
         stops.dedup();

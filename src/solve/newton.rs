@@ -182,7 +182,7 @@ pub(crate) fn scale<B: Elastic, const S: usize>(mesh: &Mesh<'_, B, S>, state: &C
 }
 
 /// The largest residual over stages and nodes, relative to the largest wrench there is.
-fn relative_residual<const S: usize>(state: &Configuration<S>, scale: &Scale) -> f64 {
+pub(crate) fn relative_residual<const S: usize>(state: &Configuration<S>, scale: &Scale) -> f64 {
     let mut residual: f64 = 0.0;
     let mut wrench: f64 = 0.0;
     for i in 0..state.response.len() {

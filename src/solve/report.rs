@@ -32,6 +32,15 @@ impl ErrorEstimate {
         (self.position / length).max(self.rotation).max(self.wrench)
     }
 
+    /// Nothing smaller than `floor`, as [`relative`](Self::relative) has it.
+    pub(super) fn at_least(&self, floor: f64, length: f64) -> Self {
+        Self {
+            position: self.position.max(floor * length),
+            rotation: self.rotation.max(floor),
+            wrench: self.wrench.max(floor),
+        }
+    }
+
     pub(super) fn scaled(&self, factor: f64) -> Self {
         Self {
             position: self.position * factor,
@@ -54,6 +63,17 @@ pub enum Rung {
     LoadSteps,
     /// The path of equilibria from rest, followed by its arc length.
     ArcLength,
+}
+
+impl std::fmt::Display for Rung {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Newton => "Newton's method",
+            Self::Regularised => "a regularised Newton's method",
+            Self::LoadSteps => "load steps",
+            Self::ArcLength => "arc length",
+        })
+    }
 }
 
 /// Whether an equilibrium would stay.

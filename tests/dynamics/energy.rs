@@ -6,7 +6,7 @@ use hyperrod::{Strain, Twist};
 use nalgebra::vector;
 
 /// Relative change of the energy in 1e4 steps, from means over a tenth of the run at either end: within a period the energy sways.
-fn drift(stepper: &mut Stepper<'_>, steps: u32) -> f64 {
+pub fn drift(stepper: &mut Stepper<'_>, steps: u32) -> f64 {
     let mut means = [0.0; 2];
     let mut begin = 0.0;
     for step in 0..steps {

@@ -3,7 +3,10 @@
 
 mod cases;
 mod damping;
+mod ends;
 mod energy;
+mod held;
+mod oracle;
 mod orders;
 mod release;
 mod stability;

@@ -7,7 +7,7 @@ use hyperrod::{Rod, Strain};
 const ALPHA: Scheme = Scheme::GeneralisedAlpha { rho: 1.0 };
 
 /// The largest departure of the tip from where it begins, in units of the length, over the first and the second half of a run.
-fn wandering(scene: &Scene<'_, Beam>, dynamics: &Dynamics, start: &Start, steps: usize) -> [f64; 2] {
+pub fn wandering(scene: &Scene<'_, Beam>, dynamics: &Dynamics, start: &Start, steps: usize) -> [f64; 2] {
     let mut stepper = dynamics.start(scene, start).unwrap();
     let begin = stepper.frame().unwrap().tip().pose.position;
     let mut largest = [0.0_f64; 2];

@@ -21,6 +21,9 @@ use crate::scalar::Scalar;
 ///
 /// The strain energy that a solution reports contains T times the length of the tendon.
 ///
+/// Nothing compares r(s) with the shape of the section: on an arm that tapers, a tendon at a constant distance from the axis may run outside
+/// the arm towards the tip, as one does that is led by discs. [`Converging`](super::Converging) keeps it inside.
+///
 /// ```
 /// use hyperrod::section::{Converging, Helical, Tendon};
 /// # fn main() -> hyperrod::Result<()> {

@@ -15,13 +15,13 @@ use crate::material::{Material, Points, Request, Response, Station};
 /// How [`check`] looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CheckOptions {
-    /// Where along the rod, m.
+    /// Where along the rod, m; 0 by default.
     pub s: f64,
     /// Degree of the quadrature; `None` for that of the law, or 12 where the law is no polynomial.
     pub degree: Option<usize>,
-    /// The largest strain looked at; for bending and twist it is that at the rim.
+    /// The largest strain looked at; for bending and twist it is that at the rim. 2 by default.
     pub largest_strain: f64,
-    /// The strain at the rim at which derivatives and quadrature are judged.
+    /// The strain at the rim at which derivatives and quadrature are judged; 0.2 by default.
     pub sample_strain: f64,
 }
 
@@ -42,6 +42,9 @@ const RANGE_DEGREE: usize = 32;
 
 /// Questions a material in a shape and reports what it finds; print the report.
 ///
+/// The section is a rigid one, as of a [`Section`](super::Section): the report says so where its E is more than three times its G, which no
+/// isotropic solid has. For one that relaxes, [`EffectiveStiffness`](super::EffectiveStiffness) has the moduli.
+///
 /// ```
 /// use hyperrod::material::NeoHookean;
 /// use hyperrod::section::{CheckOptions, Circle, check};
@@ -50,6 +53,9 @@ const RANGE_DEGREE: usize = 32;
 /// let report = check(&Circle::new(0.01), &NeoHookean::new(170e3, 400e3)?, &CheckOptions::default())?;
 /// assert_eq!(report.rest.to_array(), [0.0; 6]);
 /// assert!(report.to_string().contains("free of stress at rest"));
+/// // with the λ of a rubber instead, E would be 590 times G
+/// let report = check(&Circle::new(0.01), &NeoHookean::new(170e3, 100e6)?, &CheckOptions::default())?;
+/// assert!(report.to_string().contains("this section cannot contract"));
 /// # Ok(()) }
 /// ```
 ///

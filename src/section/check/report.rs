@@ -6,6 +6,9 @@ use crate::lie::Wrench;
 /// The names of the six strains.
 const AXES: [&str; 6] = ["omega_x", "omega_y", "omega_z", "nu_x", "nu_y", "nu_z"];
 
+/// E/G = 2 (1 + ν) of an isotropic solid is 3 at most; the rest is room for rounding.
+const LARGEST_RATIO: f64 = 3.0 + 1e-6;
+
 /// What [`check`](super::check) found. Its `Display` is meant to be read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckReport {
@@ -136,6 +139,17 @@ impl fmt::Display for CheckReport {
         writeln!(f, "at rest: EA {axial:.4e} N, GA {:.4e}, {:.4e} N", shear[0], shear[1])?;
         writeln!(f, "         EI {:.4e}, {:.4e}, GJ {torsion:.4e} N m2", bending[0], bending[1])?;
         writeln!(f, "         EA/A {young:.4e} Pa, GA/A {shear_modulus:.4e} Pa")?;
+        if young > LARGEST_RATIO * shear_modulus {
+            let ratio = young / shear_modulus;
+            writeln!(
+                f,
+                "         E IS {ratio:.3} G: an isotropic solid has 3 at most, but this section cannot contract;"
+            )?;
+            writeln!(
+                f,
+                "         take constants for the E that the rod shall have, or Relaxed instead of Section"
+            )?;
+        }
         let Derivatives { wrench, tangent, asymmetry } = self.derivatives;
         writeln!(
             f,

@@ -68,6 +68,12 @@ pub use warping::Warping;
 /// # Ok(()) }
 /// ```
 ///
+/// # Cost
+///
+/// Every response searches for the displacement, with all derivatives of the law at every point: hundreds of times the cost of a
+/// [`Section`](super::Section), a thousand on the highest rungs. Take the lowest one that is true of the rod
+/// ([`with_warping`](Self::with_warping), [`choose`](Self::choose)); the default is for torsion of shapes with corners.
+///
 /// # Limits
 /// Polynomials serve thin-walled and re-entrant shapes poorly (10⁻² to 10⁻¹ in the torsion constant even at (7, 7)).
 ///

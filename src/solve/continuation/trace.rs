@@ -17,6 +17,8 @@ pub(crate) struct Stride {
     /// Newton's method in a point: iterations, and the step that is its last.
     pub(crate) iterations: usize,
     pub(crate) tolerance: f64,
+    /// Whether the index of every point is told.
+    pub(crate) indices: bool,
 }
 
 impl Default for Stride {
@@ -29,6 +31,7 @@ impl Default for Stride {
             factors: [f64::NEG_INFINITY, f64::INFINITY],
             iterations: 10,
             tolerance: 1e-10,
+            indices: true,
         }
     }
 }
@@ -223,7 +226,7 @@ impl<'a, F: Family, E: FnMut(&PathPoint<F::State>) -> bool> Walk<'a, F, E> {
     }
 
     fn point(&mut self, place: &Place<F>, arc_length: f64) -> PathPoint<F::State> {
-        let index = self.family.index(&place.state, place.factor);
+        let index = self.stride.indices.then(|| self.family.index(&place.state, place.factor)).flatten();
         let (factor, slope) = (place.factor, place.slope);
         PathPoint { factor, state: place.state.clone(), slope, arc_length, index }
     }

@@ -34,11 +34,13 @@ impl<const S: usize> March<S> {
                     - p * acceleration,
             }
         };
-        let base = present.base;
-        core.problem.base_offset = offset(base.velocity, base.acceleration, base.algorithmic);
+        for (mount, m) in core.mounts.iter_mut().zip(&present.mounts) {
+            mount.offset = offset(m.velocity, m.acceleration, m.algorithmic);
+        }
         core.at_time(scene, present.time + h).map_err(Reason::Inadmissible)?;
         let known = self.last_step > 0.0;
-        if scene.is_free() {
+        if core.loose {
+            let base = present.base();
             let [last, before] = self.last_base;
             let phi = if known {
                 last * (2.0 * h) - before * h
@@ -87,7 +89,7 @@ impl<const S: usize> March<S> {
                 self.last_rates[0][i][k] = (core.strain[i][k] - point.strain) * (1.0 / dt);
             }
         }
-        self.last_base = [core.base_rates.phi * (1.0 / dt), self.last_base[0]];
+        self.last_base = [core.base_rates().phi * (1.0 / dt), self.last_base[0]];
         if first {
             let [last, before] = &mut self.last_rates;
             before.clone_from(last);
@@ -108,10 +110,9 @@ impl Alpha {
                 point.strain_second = (change - point.strain_rate * h - point.strain_second * ahead) * scale;
             }
         }
-        let base = &mut present.base;
-        if core.base_rates.phi == Twist::zero() {
-            return; // the base does not follow the scheme
+        for (motion, mount) in present.mounts.iter_mut().zip(&core.mounts).filter(|(_, m)| m.follows) {
+            let phi = mount.rates.phi;
+            motion.algorithmic = (phi - motion.velocity * h - motion.algorithmic * ahead) * scale;
         }
-        base.algorithmic = (core.base_rates.phi - base.velocity * h - base.algorithmic * ahead) * scale;
     }
 }

@@ -49,14 +49,14 @@ impl Kept {
         let (mut kinetic, mut elastic) = (0.0, 0.0);
         for (i, points) in present.points.iter().enumerate() {
             for (k, point) in points.iter().enumerate() {
-                let mass = core.grid.mass[i][k] * core.grid.weight(k);
+                let mass = core.grid.mass[i][k] * core.grid.weight(i, k);
                 let inverse = point.pose.adjoint_inverse();
                 let eta = point.velocity.to_vector();
                 let own = mass * eta;
                 inertia += left(&inverse, &right(&mass, &inverse));
                 momentum += brought(&point.pose, &Wrench::from_vector(&own)).to_vector();
                 kinetic += 0.5 * eta.dot(&own);
-                elastic += core.grid.weight(k) * core.energy[i][k];
+                elastic += core.grid.weight(i, k) * core.energy[i][k];
             }
         }
         let Some(factor) = inertia.cholesky() else { return Ok(()) };
@@ -77,7 +77,9 @@ impl Kept {
             point.velocity = corrected(&point.pose, point.velocity);
             point.strain_rate = point.strain_rate * scale;
         }
-        present.base.velocity = corrected(&present.base.pose, present.base.velocity);
+        for motion in &mut present.mounts {
+            motion.velocity = corrected(&motion.pose, motion.velocity);
+        }
         Ok(())
     }
 }

@@ -2,11 +2,14 @@
 
 use nalgebra::{Matrix6, Vector6};
 
-use super::factor::{BaseRows, FactoredElement};
+use super::border::Border;
+use super::factor::FactoredElement;
 use super::grid::Grid;
+use super::mount::Mount;
+use super::place::{Amplitudes, Place, none};
 use super::relation::{Offset, Rates, Relation};
-use super::scene::{Amplitudes, Movable, Scene, none};
-use crate::error::{Error, Result};
+use super::scene::{Movable, Scene};
+use crate::error::Result;
 use crate::lie::{Pose, Strain, Twist, Wrench};
 use crate::load::LoadWrench;
 use crate::material::Request;
@@ -21,8 +24,6 @@ pub(super) struct Problem<const S: usize> {
     pub(super) strain_before: Vec<[Strain; S]>,
     pub(super) offset: Vec<[Offset; S]>,
     pub(super) strain_offset: Vec<[Strain; S]>,
-    pub(super) base_before: Pose,
-    pub(super) base_offset: Offset,
     /// K counts this much: 1, but next to nothing where accelerations are sought.
     pub(super) stiffness: f64,
 }
@@ -34,7 +35,12 @@ pub(super) struct Core<const S: usize> {
     amplitudes: Amplitudes,
     pub(super) strain: Vec<[Strain; S]>,
     pub(super) base: Pose,
-    pub(super) base_rates: Rates,
+    /// Whether the pose of the base is to be found.
+    pub(super) loose: bool,
+    /// The base, every place between where something acts, and the tip.
+    pub(super) mounts: Vec<Mount>,
+    /// The mount at every node that has one.
+    pub(super) mount_at: Vec<Option<usize>>,
     pub(super) legs: Vec<Legs<S>>,
     pub(super) node_pose: Vec<Pose>,
     pub(super) pose: Vec<[Pose; S]>,
@@ -47,27 +53,41 @@ pub(super) struct Core<const S: usize> {
     pub(super) load: Vec<[LoadWrench; S]>,
     /// h b (f̄ − inertia).
     force: Vec<[Wrench; S]>,
-    pub(super) tip_load: LoadWrench,
+    /// At the end of the element before, and at the base.
     pub(super) node_wrench: Vec<Wrench>,
-    residual: Vec<[Wrench; S]>,
-    factors: Vec<FactoredElement<S>>,
-    closing: Matrix6<f64>,
+    /// Of the velocity that a body on the base misses.
+    pub(super) base_impulse: Wrench,
+    /// At the start of every element; after the corner, where there is one.
+    pub(super) start_wrench: Vec<Wrench>,
+    pub(super) residual: Vec<[Wrench; S]>,
+    pub(super) factors: Vec<FactoredElement<S>>,
+    pub(super) border: Border<S>,
+    other_factors: (Vec<FactoredElement<S>>, Border<S>),
     pub(super) step: Vec<[Strain; S]>,
     pub(super) base_step: Vector6<f64>,
-}
-
-/// How large a Newton step is, and where it is largest.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct StepSize {
-    pub(super) size: f64,
-    pub(super) rotation: f64,
-    pub(super) s: f64,
+    pub(super) reaction_step: Vec<Wrench>,
 }
 
 impl<const S: usize> Core<S> {
-    pub(super) fn new(grid: Grid<S>) -> Self {
+    pub(super) fn new<B: Movable>(grid: Grid<S>, scene: &Scene<'_, B>) -> Self {
         let n = grid.elements;
         let one = Pose::identity();
+        let mount = |place: Place| {
+            let node = match place {
+                Place::Base => 0,
+                Place::Between(s) => grid.node_at(s),
+                Place::Tip => n,
+            };
+            Mount::new(scene, place, node)
+        };
+        let mounts: Vec<Mount> = scene.places().into_iter().map(mount).collect();
+        let mut mount_at = vec![None; n + 1];
+        for (m, mount) in mounts.iter().enumerate() {
+            mount_at[mount.node] = Some(m);
+        }
+        let start = grid.start;
+        let reactions = vec![Wrench::zero(); mounts.len()];
+        let loose = !scene.support(Place::Base).is_clamped();
         let problem = Problem {
             time: 0.0,
             relation: Relation::Static,
@@ -75,8 +95,6 @@ impl<const S: usize> Core<S> {
             strain_before: vec![[Strain::zero(); S]; n],
             offset: vec![[Offset::zero(); S]; n],
             strain_offset: vec![[Strain::zero(); S]; n],
-            base_before: one,
-            base_offset: Offset::zero(),
             stiffness: 1.0,
         };
         Self {
@@ -84,8 +102,10 @@ impl<const S: usize> Core<S> {
             problem,
             amplitudes: Amplitudes::default(),
             strain: vec![[Strain::zero(); S]; n],
-            base: one,
-            base_rates: Rates::zero(),
+            base: start,
+            loose,
+            mounts,
+            mount_at,
             legs: vec![Legs::still(); n],
             node_pose: vec![one; n + 1],
             pose: vec![[one; S]; n],
@@ -96,40 +116,52 @@ impl<const S: usize> Core<S> {
             tangent: vec![[Matrix6::zeros(); S]; n],
             load: vec![[none(); S]; n],
             force: vec![[Wrench::zero(); S]; n],
-            tip_load: none(),
             node_wrench: vec![Wrench::zero(); n + 1],
+            base_impulse: Wrench::zero(),
+            start_wrench: vec![Wrench::zero(); n],
             residual: vec![[Wrench::zero(); S]; n],
             factors: (0..n).map(|_| FactoredElement::empty()).collect(),
-            closing: Matrix6::zeros(),
+            border: Border::empty(),
+            other_factors: (Vec::new(), Border::empty()),
             step: vec![[Strain::zero(); S]; n],
             base_step: Vector6::zeros(),
+            reaction_step: reactions,
         }
     }
 
-    /// Sets the time, and with it what depends on it alone: amplitudes, and the base where it is not free.
+    /// Sets the time, and with it what depends on it alone: amplitudes, the frames of supports, and the base where it is given.
     pub(super) fn at_time<B: Movable>(&mut self, scene: &Scene<'_, B>, time: f64) -> Result<()> {
         self.problem.time = time;
         scene.amplitudes(time, &mut self.amplitudes)?;
-        if !scene.is_free() {
-            let (pose, velocity, acceleration) = scene.base(time)?;
-            self.base = pose;
-            self.base_rates = Rates { phi: Twist::zero(), slope: velocity, velocity, acceleration };
+        for mount in &mut self.mounts {
+            mount.at_time(scene, time)?;
+        }
+        if self.mounts[0].support.is_clamped() {
+            (self.base, self.mounts[0].rates) = self.mounts[0].given();
         }
         Ok(())
     }
 
+    /// The mount at a node between two elements.
+    #[inline]
+    pub(super) fn between(&self, node: usize) -> Option<&Mount> {
+        self.mount_at[node].map(|m| &self.mounts[m]).filter(|mount| matches!(mount.place, Place::Between(_)))
+    }
+
+    pub(super) fn base_rates(&self) -> &Rates {
+        &self.mounts[0].rates
+    }
+
     /// Poses and rates from the strains.
     #[inline(always)]
-    pub(super) fn move_to_strains(&mut self, free: bool) {
+    pub(super) fn move_to_strains(&mut self) {
         let (grid, p) = (&self.grid, &self.problem);
-        if free {
-            self.base_rates = p.relation.rates(&p.base_before, &self.base, &p.base_offset);
-        }
         let mut node = self.base;
         self.node_pose[0] = node;
+        self.mounts[0].move_to(&p.relation, &node);
         for i in 0..grid.elements {
             let xi = grid.twists(i, &self.strain[i]);
-            self.legs[i].fill(&grid.table, &xi, grid.h());
+            self.legs[i].fill(&grid.table, &xi, grid.h(i));
             for k in 0..S {
                 let pose = node * self.legs[i].stage[k].pose;
                 self.pose[i][k] = pose;
@@ -140,6 +172,10 @@ impl<const S: usize> Core<S> {
             }
             node = node * self.legs[i].end.pose;
             self.node_pose[i + 1] = node;
+            if let Some(m) = self.mount_at[i + 1] {
+                self.mounts[m].move_to(&p.relation, &node);
+                node = self.mounts[m].after(&node);
+            }
         }
     }
 
@@ -160,7 +196,7 @@ impl<const S: usize> Core<S> {
                 }
             }
         }
-        if !self.grid.viscosity.is_empty() && !scene.is_free() && self.problem.relation != Relation::Static {
+        if !self.grid.viscosity.is_empty() && !self.loose && self.problem.relation != Relation::Static {
             self.rates_from_velocities();
         }
         for (i, viscosity) in self.grid.viscosity.iter().enumerate() {
@@ -169,37 +205,81 @@ impl<const S: usize> Core<S> {
                 self.wrench[i][k] += Wrench::from_vector(&damping);
             }
         }
-        self.tip_load = scene.tip_load(&self.amplitudes, &self.node_pose[self.grid.elements])?;
+        // of what acts on a base whose pose is given the rod feels nothing
+        for mount in &mut self.mounts[usize::from(!self.loose)..] {
+            mount.load_by(scene, &self.amplitudes, &self.node_pose[mount.node])?;
+        }
         Ok(())
     }
 
-    /// Inertia, node wrenches and residuals.
+    /// Inertia, node wrenches and residuals. What the balance gives of the wrenches of fixed strains replaces what the law says.
     #[inline(always)]
     pub(super) fn balance(&mut self) {
         let grid = &self.grid;
-        self.node_wrench[grid.elements] = self.tip_load.wrench;
         let moving = self.problem.relation != Relation::Static;
+        self.node_wrench[grid.elements] = self.mounts[self.mounts.len() - 1].before(&Wrench::zero(), moving);
         for i in (0..grid.elements).rev() {
             for k in 0..S {
                 let mut force = self.load[i][k].wrench;
                 if moving {
                     force -= inertia(&grid.mass[i][k], &self.rates[i][k]);
                 }
-                self.force[i][k] = force * grid.weight(k);
+                self.force[i][k] = force * grid.weight(i, k);
             }
             let at_end = self.node_wrench[i + 1];
-            let (at_start, at_stages) = self.legs[i].balance(&grid.table, grid.h(), &at_end, &self.force[i]);
-            self.node_wrench[i] = at_start;
+            let (at_start, at_stages) = self.legs[i].balance(&grid.table, grid.h(i), &at_end, &self.force[i]);
+            self.start_wrench[i] = at_start;
+            self.node_wrench[i] = match self.mount_at[i] {
+                Some(m) if i > 0 => self.mounts[m].before(&at_start, moving),
+                _ => at_start,
+            };
             for k in 0..S {
-                self.residual[i][k] = self.wrench[i][k] * grid.weight(k) - at_stages[k];
+                let weight = grid.weight(i, k);
+                if grid.has_fixed_strains() {
+                    take(&mut self.wrench[i][k], &(at_stages[k] * (1.0 / weight)), &grid.fixed);
+                }
+                self.residual[i][k] = self.wrench[i][k] * weight - at_stages[k];
             }
         }
+    }
+
+    /// As [`balance`](Self::balance), of the momenta of the velocities that are missing: those of the stages, and of the mounts.
+    pub(super) fn balance_impulses(&mut self, missing: &[[Twist; S]], at_mounts: &[Twist]) {
+        let grid = &self.grid;
+        let momentum = |mass: &Matrix6<f64>, twist: &Twist| Wrench::from_vector(&(mass * twist.to_vector()));
+        let impulse = |m: usize| match &self.mounts[m].mass {
+            Some(mass) => momentum(mass, &at_mounts[m]),
+            None => Wrench::zero(),
+        };
+        self.base_impulse = impulse(0);
+        self.node_wrench[grid.elements] = impulse(self.mounts.len() - 1);
+        for i in (0..grid.elements).rev() {
+            for k in 0..S {
+                self.force[i][k] = momentum(&grid.mass[i][k], &missing[i][k]) * grid.weight(i, k);
+            }
+            let at_end = self.node_wrench[i + 1];
+            let (at_start, at_stages) = self.legs[i].balance(&grid.table, grid.h(i), &at_end, &self.force[i]);
+            self.node_wrench[i] = match self.mount_at[i] {
+                Some(m) if i > 0 => self.mounts[m].turned_back(&at_start) + impulse(m),
+                _ => at_start,
+            };
+            self.residual[i] = at_stages.map(|wrench| -wrench);
+        }
+    }
+
+    /// Puts the factors for rates in the place of those for steps, or back.
+    pub(super) fn swap_factors(&mut self) {
+        if self.other_factors.0.is_empty() {
+            self.other_factors.0 = (0..self.grid.elements).map(|_| FactoredElement::empty()).collect();
+        }
+        std::mem::swap(&mut self.factors, &mut self.other_factors.0);
+        std::mem::swap(&mut self.border, &mut self.other_factors.1);
     }
 
     /// The linearised element i about the state that was balanced.
     pub(super) fn element(&self, i: usize, relation: &Matrix6<f64>) -> AdjointElement<S> {
         let (grid, p) = (&self.grid, &self.problem);
-        let held = p.relation == Relation::Held;
+        let held = p.relation.is_of_rates();
         let mut stiffness = self.tangent[i];
         let mut force_tangent = [Matrix6::zeros(); S];
         for k in 0..S {
@@ -212,10 +292,10 @@ impl<const S: usize> Core<S> {
             if !held {
                 force_tangent[k] += self.load[i][k].tangent;
             }
-            force_tangent[k] *= grid.weight(k);
+            force_tangent[k] *= grid.weight(i, k);
         }
         let state = AdjointState {
-            h: grid.h(),
+            h: grid.h(i),
             xi: grid.twists(i, &self.strain[i]),
             legs: &self.legs[i],
             stiffness: &stiffness,
@@ -228,79 +308,6 @@ impl<const S: usize> Core<S> {
         AdjointElement::new(&grid.table, &state, relation)
     }
 
-    /// ∂Λ_N/∂ζ_N.
-    pub(super) fn tip_relation(&self) -> Matrix6<f64> {
-        if self.problem.relation == Relation::Held { Matrix6::zeros() } else { self.tip_load.tangent }
-    }
-
-    /// Linearises about the state that was balanced, and factors.
-    pub(super) fn factor(&mut self, base: &BaseRows) -> Result<()> {
-        let mut relation = self.tip_relation();
-        for i in (0..self.grid.elements).rev() {
-            let element = self.element(i, &relation);
-            relation = self.factors[i]
-                .factor(&element)
-                .ok_or_else(|| Error::Singular { matrix: "tangent of an element", s: self.grid.node_s(i) })?;
-        }
-        self.closing = base
-            .close(&relation, self.grid.length)
-            .ok_or(Error::Singular { matrix: "tangent of the base", s: 0.0 })?;
-        Ok(())
-    }
-
-    /// The factors as numbers.
-    pub(super) fn save_factors(&self) -> Vec<f64> {
-        let mut numbers = self.closing.as_slice().to_vec();
-        self.factors.iter().for_each(|element| element.save(&mut numbers));
-        numbers
-    }
-
-    /// The opposite of [`save_factors`](Self::save_factors).
-    pub(super) fn restore_factors(&mut self, numbers: &[f64]) -> Option<()> {
-        let mut numbers = numbers.iter().copied();
-        for entry in self.closing.as_mut_slice() {
-            *entry = numbers.next()?;
-        }
-        self.factors.iter_mut().try_for_each(|element| element.restore(&mut numbers))
-    }
-
-    /// The Newton step for the present residual, by the factors at hand.
-    #[inline(always)]
-    pub(super) fn newton_step(&mut self, base: &BaseRows, free: bool) -> Result<StepSize> {
-        let mut answer = Wrench::zero();
-        for i in (0..self.grid.elements).rev() {
-            (self.step[i], answer) = self.factors[i].back(&self.residual[i], &answer);
-        }
-        self.base_step = if free {
-            let missing = -(self.node_wrench[0] + answer).to_vector();
-            self.closing * (base.wrench * missing)
-        } else {
-            Vector6::zeros()
-        };
-        let length = self.grid.length;
-        let mut zeta = self.base_step;
-        let mut found = StepSize { size: 0.0, rotation: 0.0, s: 0.0 };
-        for i in 0..=self.grid.elements {
-            let rotation = zeta.fixed_rows::<3>(0).norm();
-            let mut size = rotation.max(zeta.fixed_rows::<3>(3).norm() / length);
-            found.rotation = found.rotation.max(rotation);
-            if i < self.grid.elements {
-                zeta = self.factors[i].forth(&zeta, &mut self.step[i]);
-                for strain in &self.step[i] {
-                    size = size.max(strain.linear.norm()).max(strain.angular.norm() * length);
-                }
-            }
-            // not max, which would drop a NaN
-            if !(size <= found.size) {
-                (found.size, found.s) = (size, self.grid.node_s(i));
-            }
-        }
-        if found.size.is_finite() {
-            return Ok(found);
-        }
-        Err(Error::Singular { matrix: "tangent of the rod", s: found.s })
-    }
-
     /// Adds a fraction of the step.
     pub(super) fn advance(&mut self, fraction: f64) {
         for (strain, step) in self.strain.iter_mut().zip(&self.step) {
@@ -311,6 +318,9 @@ impl<const S: usize> Core<S> {
         if self.base_step != Vector6::zeros() {
             self.base = self.base * Twist::from_vector(&(self.base_step * fraction)).exp();
         }
+        for (mount, step) in self.mounts.iter_mut().zip(&self.reaction_step) {
+            mount.reaction += *step * fraction;
+        }
     }
 }
 
@@ -319,4 +329,13 @@ impl<const S: usize> Core<S> {
 pub(super) fn inertia(mass: &Matrix6<f64>, rates: &Rates) -> Wrench {
     let momentum = Wrench::from_vector(&(mass * rates.velocity.to_vector()));
     Wrench::from_vector(&(mass * rates.acceleration.to_vector())) - momentum.ad_transpose(&rates.velocity)
+}
+
+/// Takes the components of `from` that go with fixed strains.
+fn take(into: &mut Wrench, from: &Wrench, fixed: &[bool; 6]) {
+    let (mut all, from) = (into.to_array(), from.to_array());
+    for c in (0..6).filter(|&c| fixed[c]) {
+        all[c] = from[c];
+    }
+    *into = Wrench::from_array(all);
 }

@@ -43,8 +43,8 @@ pub(super) fn on_mesh<B: Movable, const S: usize>(
     time: f64,
 ) -> Result<Core<S>, Box<Failure>> {
     scene.check().map_err(|error| Failure::early(time, Reason::Options(error)))?;
-    match Grid::new(scene.rod().body(), options.elements) {
-        Ok(grid) => Ok(Core::new(grid)),
+    match Grid::new(scene, options.elements) {
+        Ok(grid) => Ok(Core::new(grid, scene)),
         Err(error) => Err(Failure::early(time, Reason::Inadmissible(error))),
     }
 }
@@ -78,10 +78,13 @@ impl<'s, 'r, B: Movable, const S: usize> Run<'s, 'r, B, S> {
     ) -> Result<Self, Box<Failure>> {
         let early = |error| Failure::early(state.time, Reason::Options(error));
         let mut core = on_mesh(options, scene, state.time)?;
-        let mut present = Present::restore(state, options.elements).map_err(early)?;
-        core.base = present.base.pose;
+        let mut present = Present::restore(state, core.grid.elements, core.mounts.len()).map_err(early)?;
+        core.at_time(scene, state.time).map_err(early)?;
         present.hold(&mut core);
-        core.move_to_strains(true);
+        core.move_to_strains();
+        for (motion, mount) in present.mounts.iter_mut().zip(&core.mounts).skip(1) {
+            motion.pose = core.node_pose[mount.node];
+        }
         for (points, poses) in present.points.iter_mut().zip(&core.pose) {
             for k in 0..S {
                 points[k].pose = poses[k];
@@ -98,7 +101,7 @@ impl<'s, 'r, B: Movable, const S: usize> Run<'s, 'r, B, S> {
     }
 
     fn with(options: &Dynamics, scene: &'s Scene<'r, B>, core: Core<S>, present: Present<S>) -> Self {
-        let march = March::new(core.grid.elements);
+        let march = March::new(core.grid.elements, core.mounts.len());
         let how = How {
             scheme: options.scheme,
             tolerance: options.tolerance,
@@ -138,8 +141,19 @@ impl<'s, 'r, B: Movable, const S: usize> Run<'s, 'r, B, S> {
 
     fn fail(&mut self, time: f64, reason: Reason) -> Box<Failure> {
         let last = Some(Box::new(self.save()));
-        let frame = self.present.describe(&mut self.core, self.scene).ok().map(Box::new);
+        let frame = self.describe().ok().map(Box::new);
         Box::new(Failure { time, reason, last, frame })
+    }
+
+    /// The present, described: after a step of ESDIRK with rates that are consistent with what is held.
+    fn describe(&mut self) -> Result<Frame, Error> {
+        let step = self.march.last_step;
+        if step > 0.0 && self.how.scheme == Scheme::Esdirk43 && self.scene.is_constrained() {
+            let mut consistent = self.present.clone();
+            consistent.make_consistent(&mut self.core, self.scene, step)?;
+            return consistent.describe(&mut self.core, self.scene);
+        }
+        self.present.describe(&mut self.core, self.scene)
     }
 
     fn report(&self, dt: f64, made: &Made, rejected: usize) -> StepReport {
@@ -229,7 +243,7 @@ impl<B: Movable, const S: usize> Engine for Run<'_, '_, B, S> {
     }
 
     fn frame(&mut self) -> Result<Frame, Box<Failure>> {
-        match self.present.describe(&mut self.core, self.scene) {
+        match self.describe() {
             Ok(frame) => Ok(frame),
             Err(error) => {
                 let time = self.present.time;

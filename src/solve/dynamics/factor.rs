@@ -14,6 +14,9 @@ const MAX: usize = 18;
 
 /// One element: its strains from its residual, from the answer s of what is beyond it, and from the displacement of its first node.
 pub(super) struct FactoredElement<const S: usize> {
+    /// How many strains are free, and which of all 6 S they are.
+    count: usize,
+    free: [usize; MAX],
     /// L and U of the scaled matrix, rows in the order of elimination.
     lu: [[f64; MAX]; MAX],
     order: [usize; MAX],
@@ -29,6 +32,8 @@ impl<const S: usize> FactoredElement<S> {
     pub(super) fn empty() -> Self {
         let one = TwistMap::identity();
         Self {
+            count: 0,
+            free: [0; MAX],
             lu: [[0.0; MAX]; MAX],
             order: [0; MAX],
             scale: [0.0; MAX],
@@ -39,10 +44,28 @@ impl<const S: usize> FactoredElement<S> {
         }
     }
 
+    /// Lists the strains that are free.
+    fn choose(&mut self, fixed: &[bool; 6]) {
+        self.count = 0;
+        for row in (0..6 * S).filter(|row| !fixed[row % 6]) {
+            self.free[self.count] = row;
+            self.count += 1;
+        }
+    }
+
     /// Factors an element that already contains the relation at its end, and returns the one at its start. `None` where it is singular.
-    pub(super) fn factor(&mut self, element: &AdjointElement<S>) -> Option<Matrix6<f64>> {
-        self.load(element);
-        self.eliminate()?;
+    ///
+    /// The rows and columns of fixed strains are left out.
+    pub(super) fn factor(&mut self, element: &AdjointElement<S>, fixed: &[bool; 6]) -> Option<Matrix6<f64>> {
+        self.choose(fixed);
+        // the bound is known to the compiler where all strains are free
+        if self.count == 6 * S {
+            self.load(element, 6 * S);
+            self.eliminate(6 * S)?;
+        } else {
+            self.load(element, self.count);
+            self.eliminate(self.count)?;
+        }
         (self.q, self.end, self.end_inverse) = (element.q, element.end, element.end_inverse);
         self.from_node = [Matrix6::zeros(); S];
         let mut relation = element.u;
@@ -67,28 +90,28 @@ impl<const S: usize> FactoredElement<S> {
     }
 
     /// Copies A, scaled to a unit diagonal.
-    fn load(&mut self, element: &AdjointElement<S>) {
-        for k in 0..S {
-            for r in 0..6 {
-                let diagonal = element.a[k][k][(r, r)].abs();
-                self.scale[6 * k + r] = if diagonal > 0.0 { 1.0 / diagonal.sqrt() } else { 1.0 };
-            }
+    #[inline(always)]
+    fn load(&mut self, element: &AdjointElement<S>, n: usize) {
+        let whole = n == 6 * S;
+        let free = self.free;
+        let entry = |i: usize, j: usize| {
+            let (r, c) = if whole { (i, j) } else { (free[i], free[j]) };
+            element.a[r / 6][c / 6][(r % 6, c % 6)]
+        };
+        for i in 0..n {
+            let diagonal = entry(i, i).abs();
+            self.scale[i] = if diagonal > 0.0 { 1.0 / diagonal.sqrt() } else { 1.0 };
         }
-        for k in 0..S {
-            for m in 0..S {
-                for r in 0..6 {
-                    for c in 0..6 {
-                        self.lu[6 * k + r][6 * m + c] =
-                            element.a[k][m][(r, c)] * self.scale[6 * k + r] * self.scale[6 * m + c];
-                    }
-                }
+        for i in 0..n {
+            for j in 0..n {
+                self.lu[i][j] = entry(i, j) * self.scale[i] * self.scale[j];
             }
         }
     }
 
     /// Gaussian elimination with row pivoting.
-    fn eliminate(&mut self) -> Option<()> {
-        let n = 6 * S;
+    #[inline(always)]
+    fn eliminate(&mut self, n: usize) -> Option<()> {
         self.order = std::array::from_fn(|r| r);
         for column in 0..n {
             let mut pivot = column;
@@ -118,14 +141,22 @@ impl<const S: usize> FactoredElement<S> {
         Some(())
     }
 
-    /// A⁻¹ b in place.
+    /// A⁻¹ b in place; zero where strains are fixed.
     #[inline(always)]
     fn substitute(&self, b: &mut [f64; MAX]) {
-        let n = 6 * S;
+        if self.count == 6 * S {
+            self.substitute_all(b, 6 * S, |row| row);
+        } else {
+            self.substitute_all(b, self.count, |row| self.free[row]);
+        }
+    }
+
+    #[inline(always)]
+    fn substitute_all(&self, b: &mut [f64; MAX], n: usize, place: impl Fn(usize) -> usize) {
         let mut x = [0.0; MAX];
         for row in 0..n {
             let from = self.order[row];
-            let mut value = b[from] * self.scale[from];
+            let mut value = b[place(from)] * self.scale[from];
             for c in 0..row {
                 value -= self.lu[row][c] * x[c];
             }
@@ -138,8 +169,11 @@ impl<const S: usize> FactoredElement<S> {
             }
             x[row] = value * self.lu[row][row];
         }
+        if n < 6 * S {
+            *b = [0.0; MAX];
+        }
         for c in 0..n {
-            b[c] = x[c] * self.scale[c];
+            b[place(c)] = x[c] * self.scale[c];
         }
     }
 
@@ -184,7 +218,7 @@ impl<const S: usize> FactoredElement<S> {
 impl<const S: usize> FactoredElement<S> {
     /// Appends all numbers, which make the same element again.
     pub(super) fn save(&self, into: &mut Vec<f64>) {
-        let n = 6 * S;
+        let n = self.count;
         for row in &self.lu[..n] {
             into.extend(&row[..n]);
         }
@@ -201,8 +235,9 @@ impl<const S: usize> FactoredElement<S> {
     }
 
     /// The opposite of [`save`](Self::save); `None` where numbers are missing.
-    pub(super) fn restore(&mut self, from: &mut impl Iterator<Item = f64>) -> Option<()> {
-        let n = 6 * S;
+    pub(super) fn restore(&mut self, fixed: &[bool; 6], from: &mut impl Iterator<Item = f64>) -> Option<()> {
+        self.choose(fixed);
+        let n = self.count;
         let mut fill = |entries: &mut [f64]| {
             entries.iter_mut().try_for_each(|entry| from.next().map(|number| *entry = number))
         };
@@ -221,33 +256,5 @@ impl<const S: usize> FactoredElement<S> {
         }
         fill(self.end_inverse.diagonal.as_mut_slice())?;
         fill(self.end_inverse.lower.as_mut_slice())
-    }
-}
-
-/// Six rows C_ζ ζ + C_Λ δΛ = d at the base.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct BaseRows {
-    pub(super) zeta: Matrix6<f64>,
-    pub(super) wrench: Matrix6<f64>,
-}
-
-impl BaseRows {
-    /// ζ = d: the pose of the base is given.
-    pub(super) fn held() -> Self {
-        Self { zeta: Matrix6::identity(), wrench: Matrix6::zeros() }
-    }
-
-    /// δΛ = d: the wrench is given.
-    pub(super) fn free() -> Self {
-        Self { zeta: Matrix6::zeros(), wrench: Matrix6::identity() }
-    }
-
-    /// (C_ζ + C_Λ R)⁻¹, by which ζ = (…)(d − C_Λ s); rows and columns are scaled by the length. `None` where the base is not held.
-    pub(super) fn close(&self, relation: &Matrix6<f64>, length: f64) -> Option<Matrix6<f64>> {
-        let unit = |i: usize| if i < 3 { 1.0 } else { length };
-        let matrix = self.zeta + self.wrench * relation;
-        let scaled = Matrix6::from_fn(|r, c| matrix[(r, c)] * unit(r) * unit(c));
-        let inverse = scaled.try_inverse().filter(|m| m.iter().all(|v| v.is_finite()))?;
-        Some(Matrix6::from_fn(|r, c| inverse[(r, c)] * unit(r) * unit(c)))
     }
 }

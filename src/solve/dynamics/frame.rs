@@ -6,6 +6,7 @@ use super::scene::{Movable, Scene};
 use crate::error::Result;
 use crate::lie::{Pose, Strain, Twist, Wrench};
 use crate::material::Request;
+use crate::rod::adjoint::brought;
 
 /// A node of a rod in motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,11 +47,11 @@ pub struct Energies {
     pub kinetic: f64,
     /// ∫U ds.
     pub elastic: f64,
-    /// Of the loads; `None` where one of them has no potential. That of a load that varies in time is its present one.
+    /// Of the loads, and of the springs of supports; `None` where one of them has no potential. That of a load that varies in time is its present one.
     pub potential: Option<f64>,
     /// What damping took since the start, ∫∫ξ̇ᵀ V ξ̇ ds dt.
     pub dissipated: f64,
-    /// What loads, and a base that is driven, gave since the start; followed if [`Dynamics::track_work`](super::Dynamics::track_work) says so,
+    /// What loads, springs of supports and supports that move gave since the start; followed if [`Dynamics::track_work`](super::Dynamics::track_work) says so,
     /// otherwise zero.
     pub work: f64,
 }
@@ -67,7 +68,7 @@ impl Energies {
 pub struct Frame {
     /// Time, s.
     pub time: f64,
-    /// Nodes from base to tip.
+    /// Nodes from base to tip; where something acts between the ends there are two with the same s, before and after it.
     pub nodes: Vec<MovingNode>,
     /// Gauss stages from base to tip.
     pub stages: Vec<MovingStage>,
@@ -97,41 +98,60 @@ fn as_twist(strain: &Strain) -> Twist {
 
 impl<const S: usize> Core<S> {
     /// The velocities of the nodes, by the kinematics of the element from the base and the rates of strain.
-    pub(super) fn node_velocities(&self, mut each: impl FnMut(Twist)) -> Twist {
-        let mut velocity = self.base_rates.velocity;
+    pub(super) fn node_velocities(&self, mut each: impl FnMut(Twist)) {
+        let mut velocity = self.base_rates().velocity;
         each(velocity);
-        for (legs, rate) in self.legs.iter().zip(&self.strain_rate) {
+        for (i, (legs, rate)) in self.legs.iter().zip(&self.strain_rate).enumerate() {
+            if let Some(mount) = self.between(i) {
+                velocity = mount.turned_on(&velocity);
+            }
             let rate: [Twist; S] = std::array::from_fn(|k| as_twist(&rate[k]));
-            (_, velocity) = legs.velocities(&self.grid.table, self.grid.h(), &velocity, &rate);
+            (_, velocity) = legs.velocities(&self.grid.table, self.grid.h(i), &velocity, &rate);
             each(velocity);
         }
-        velocity
     }
 
     /// Linear momentum, and angular momentum about the origin.
     pub(super) fn momentum(&self) -> Vector6<f64> {
         let mut total = Vector6::zeros();
+        let mut add = |momentum: Vector6<f64>, pose: &Pose| {
+            total += brought(pose, &Wrench::from_vector(&momentum)).to_vector();
+        };
         for (i, rates) in self.rates.iter().enumerate() {
             for k in 0..S {
-                let momentum = self.grid.mass[i][k] * rates[k].velocity.to_vector() * self.grid.weight(k);
-                let brought = crate::rod::adjoint::brought(&self.pose[i][k], &Wrench::from_vector(&momentum));
-                total += brought.to_vector();
+                let momentum = self.grid.mass[i][k] * rates[k].velocity.to_vector();
+                add(momentum * self.grid.weight(i, k), &self.pose[i][k]);
             }
+        }
+        for (mount, mass) in self.mounts.iter().filter_map(|mount| mount.mass.map(|mass| (mount, mass))) {
+            add(mass * mount.rates.velocity.to_vector(), &self.node_pose[mount.node]);
         }
         total
     }
 
-    /// Kinetic and elastic energy, and the potential of the loads.
+    /// Kinetic and elastic energy, and the potential of loads and of the springs of supports.
     pub(super) fn energies(&self) -> (f64, f64, Option<f64>) {
-        let (mut kinetic, mut elastic, mut potential) = (0.0, 0.0, self.tip_load.potential);
+        let (mut kinetic, mut elastic, mut potential) = (0.0, 0.0, Some(0.0));
         for i in 0..self.grid.elements {
             for k in 0..S {
-                let weight = self.grid.weight(k);
+                let weight = self.grid.weight(i, k);
                 let eta = self.rates[i][k].velocity.to_vector();
                 kinetic += 0.5 * weight * eta.dot(&(self.grid.mass[i][k] * eta));
                 elastic += weight * self.energy[i][k];
                 potential = potential.zip(self.load[i][k].potential).map(|(sum, p)| sum + weight * p);
             }
+        }
+        for mount in &self.mounts {
+            if let Some(mass) = &mount.mass {
+                let eta = mount.rates.velocity.to_vector();
+                kinetic += 0.5 * eta.dot(&(mass * eta));
+            }
+            let springs = if mount.support.is_free() {
+                0.0
+            } else {
+                mount.support.potential(&self.node_pose[mount.node])
+            };
+            potential = potential.zip(mount.load.potential).map(|(sum, p)| sum + p + springs);
         }
         (kinetic, elastic, potential)
     }
@@ -142,7 +162,7 @@ impl<const S: usize> Present<S> {
     pub(super) fn evaluate<B: Movable>(&self, core: &mut Core<S>, scene: &Scene<'_, B>) -> Result<()> {
         core.at_time(scene, self.time)?;
         self.hold(core);
-        core.move_to_strains(true);
+        core.move_to_strains();
         core.respond(scene, Request::Wrench)?;
         core.balance();
         Ok(())
@@ -151,21 +171,20 @@ impl<const S: usize> Present<S> {
     /// Describes this state.
     pub(super) fn describe<B: Movable>(&self, core: &mut Core<S>, scene: &Scene<'_, B>) -> Result<Frame> {
         self.evaluate(core, scene)?;
-        if !scene.is_free() {
+        if !core.loose {
             core.rates_from_velocities();
         }
         let mut velocities = Vec::with_capacity(core.grid.elements + 1);
         core.node_velocities(|velocity| velocities.push(velocity));
-        let nodes = velocities
-            .into_iter()
-            .enumerate()
-            .map(|(i, velocity)| MovingNode {
-                s: core.grid.node_s(i),
-                pose: core.node_pose[i],
-                velocity,
-                wrench: core.node_wrench[i],
-            })
-            .collect();
+        let mut nodes = Vec::with_capacity(velocities.len());
+        for (i, velocity) in velocities.into_iter().enumerate() {
+            let (s, pose, wrench) = (core.grid.node_s(i), core.node_pose[i], core.node_wrench[i]);
+            nodes.push(MovingNode { s, pose, velocity, wrench });
+            if let Some(mount) = core.between(i) {
+                let (pose, velocity) = (mount.after(&pose), mount.turned_on(&velocity));
+                nodes.push(MovingNode { s, pose, velocity, wrench: core.start_wrench[i] });
+            }
+        }
         let stage = |i: usize, k: usize| MovingStage {
             s: core.grid.stage_s(i, k),
             pose: core.pose[i][k],

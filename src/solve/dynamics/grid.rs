@@ -2,29 +2,46 @@
 
 use nalgebra::Matrix6;
 
-use super::scene::Movable;
+use super::scene::{Movable, Scene};
 use crate::error::Result;
-use crate::lie::{Strain, Twist};
+use crate::lie::{Pose, Strain, Twist};
 use crate::rod::collocation::Collocation;
+use crate::solve::mesh::Mesh;
 
-/// Elements of equal length, with the section's inertia and viscosity at every stage.
+/// Elements of equal length but where something acts between the ends, with the section's inertia and viscosity at every stage.
 pub(super) struct Grid<const S: usize> {
     pub(super) table: Collocation<S>,
     pub(super) length: f64,
     pub(super) elements: usize,
+    /// Arc lengths of the nodes.
+    nodes: Vec<f64>,
     /// ξ* at the stages.
     reference: Vec<[Twist; S]>,
     pub(super) mass: Vec<[Matrix6<f64>; S]>,
     /// Empty without damping.
     pub(super) viscosity: Vec<[Matrix6<f64>; S]>,
+    /// Which strains are fixed.
+    pub(super) fixed: [bool; 6],
+    /// Where the reference shape lies: the pose of its first section, as the statics start from it.
+    pub(super) start: Pose,
 }
 
 impl<const S: usize> Grid<S> {
-    pub(super) fn new<B: Movable>(body: &B, elements: usize) -> Result<Self> {
-        let (table, length) = (Collocation::gauss(), body.length());
-        let (reference, mass, viscosity) = Default::default();
-        let mut grid = Self { table, length, elements, reference, mass, viscosity };
-        for i in 0..elements {
+    pub(super) fn new<B: Movable>(scene: &Scene<'_, B>, elements: usize) -> Result<Self> {
+        let (body, mesh) =
+            (scene.rod().body(), Mesh::<B, S>::with_stops(scene.rod(), elements, &scene.stops()));
+        let mut grid = Self {
+            table: Collocation::gauss(),
+            length: body.length(),
+            elements: mesh.elements(),
+            nodes: (0..=mesh.elements()).map(|i| mesh.node_s(i)).collect(),
+            reference: Vec::new(),
+            mass: Vec::new(),
+            viscosity: Vec::new(),
+            fixed: body.constraint().fixed(),
+            start: mesh.start.base,
+        };
+        for i in 0..grid.elements {
             let mut mass = [Matrix6::zeros(); S];
             let mut viscosity = [None; S];
             for k in 0..S {
@@ -40,30 +57,39 @@ impl<const S: usize> Grid<S> {
         Ok(grid)
     }
 
-    /// Length of an element.
+    /// Length of element i.
     #[inline]
-    pub(super) fn h(&self) -> f64 {
-        self.length / self.elements as f64
+    pub(super) fn h(&self, i: usize) -> f64 {
+        self.nodes[i + 1] - self.nodes[i]
     }
 
     pub(super) fn node_s(&self, i: usize) -> f64 {
-        self.length * (i as f64 / self.elements as f64)
+        self.nodes[i]
+    }
+
+    /// The node at an arc length that is one.
+    pub(super) fn node_at(&self, s: f64) -> usize {
+        self.nodes.partition_point(|node| *node < s).min(self.elements)
     }
 
     #[inline]
     pub(super) fn stage_s(&self, i: usize, k: usize) -> f64 {
-        self.h() * (i as f64 + self.table.c[k])
+        self.nodes[i] + self.table.c[k] * self.h(i)
     }
 
-    /// h b_k.
+    /// h b_k in element i.
     #[inline]
-    pub(super) fn weight(&self, k: usize) -> f64 {
-        self.h() * self.table.b[k]
+    pub(super) fn weight(&self, i: usize, k: usize) -> f64 {
+        self.h(i) * self.table.b[k]
     }
 
     /// ξ = ξ* + Δξ at the stages of element i.
     #[inline]
     pub(super) fn twists(&self, i: usize, strains: &[Strain; S]) -> [Twist; S] {
         std::array::from_fn(|k| self.reference[i][k] + strains[k])
+    }
+
+    pub(super) fn has_fixed_strains(&self) -> bool {
+        self.fixed != [false; 6]
     }
 }

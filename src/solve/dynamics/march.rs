@@ -9,10 +9,10 @@ use super::scene::{Movable, Scene};
 use super::scheme::{Alpha, STAGES, Scheme};
 use crate::lie::{Strain, Twist};
 
-/// φ̇, η̇ and ξ̇ at one instant.
+/// φ̇, η̇ and ξ̇ at one instant; of the mounts, the base first, φ̇ and η̇.
 #[derive(Clone)]
 pub(super) struct Slopes<const S: usize> {
-    pub(super) base: [Twist; 2],
+    pub(super) mounts: Vec<[Twist; 2]>,
     pub(super) points: Vec<[(Twist, Twist, Strain); S]>,
     /// Rates at which damping takes and loads give energy, W.
     pub(super) power: [f64; 2],
@@ -46,10 +46,10 @@ pub(super) struct Made {
 }
 
 impl<const S: usize> March<S> {
-    pub(super) fn new(elements: usize) -> Self {
+    pub(super) fn new(elements: usize, mounts: usize) -> Self {
         let zero = Twist::zero();
         let slopes = Slopes {
-            base: [zero; 2],
+            mounts: vec![[zero; 2]; mounts],
             points: vec![[(zero, zero, Strain::zero()); S]; elements],
             power: [0.0; 2],
         };
@@ -111,19 +111,14 @@ impl<const S: usize> March<S> {
         made: &mut Made,
     ) -> Result<(), Reason> {
         let (memory, effort) = (&mut self.memory, &mut made.effort);
-        let mut newton = Newton {
-            tolerance: how.tolerance,
-            max_iterations: how.max_iterations,
-            memory,
-            effort,
-            held: false,
-        };
+        let mut newton =
+            Newton { tolerance: how.tolerance, max_iterations: how.max_iterations, memory, effort };
         let Err(first) = newton.solve(core, scene) else { return Ok(()) };
         for (strain, points) in core.strain.iter_mut().zip(&present.points) {
             *strain = points.map(|point| point.strain);
         }
-        if scene.is_free() {
-            core.base = present.base.pose;
+        if core.loose {
+            core.base = present.base().pose;
         }
         newton.memory.factored = None;
         newton.solve(core, scene).map_err(|_| first)
@@ -151,7 +146,9 @@ impl<const S: usize> March<S> {
 /// Puts the beginning of a step into the constants of its solves.
 pub(super) fn begin_step<const S: usize>(core: &mut Core<S>, present: &Present<S>) {
     core.problem.stiffness = 1.0;
-    core.problem.base_before = present.base.pose;
+    for (mount, motion) in core.mounts.iter_mut().zip(&present.mounts) {
+        mount.pose_before = motion.pose;
+    }
     for (i, points) in present.points.iter().enumerate() {
         for (k, point) in points.iter().enumerate() {
             core.problem.pose_before[i][k] = point.pose;
@@ -164,9 +161,12 @@ impl<const S: usize> Present<S> {
     /// Takes over what the last solve of a step found.
     fn arrive(&mut self, core: &Core<S>, dt: f64) {
         self.time += dt;
-        self.base.pose = core.base;
-        self.base.velocity = core.base_rates.velocity;
-        self.base.acceleration = core.base_rates.acceleration;
+        for (motion, mount) in self.mounts.iter_mut().zip(&core.mounts) {
+            motion.pose = core.node_pose[mount.node];
+            motion.velocity = mount.rates.velocity;
+            motion.acceleration = mount.rates.acceleration;
+            motion.reaction = mount.reaction;
+        }
         for (i, points) in self.points.iter_mut().enumerate() {
             for (k, point) in points.iter_mut().enumerate() {
                 point.pose = core.pose[i][k];
@@ -186,17 +186,23 @@ impl<const S: usize> Core<S> {
         for (i, viscosity) in self.grid.viscosity.iter().enumerate() {
             for k in 0..S {
                 let rate = self.strain_rate[i][k].to_vector();
-                damping += self.grid.weight(k) * rate.dot(&(viscosity[k] * rate));
+                damping += self.grid.weight(i, k) * rate.dot(&(viscosity[k] * rate));
             }
         }
         if work {
-            for (loads, rates) in self.load.iter().zip(&self.rates) {
+            for (i, (loads, rates)) in self.load.iter().zip(&self.rates).enumerate() {
                 for k in 0..S {
-                    given += self.grid.weight(k) * rates[k].velocity.pair(&loads[k].wrench);
+                    given += self.grid.weight(i, k) * rates[k].velocity.pair(&loads[k].wrench);
                 }
             }
-            given += self.node_velocities(|_| ()).pair(&self.tip_load.wrench);
-            given -= self.base_rates.velocity.pair(&self.node_wrench[0]);
+            let mut at_node = 0;
+            self.node_velocities(|velocity| {
+                if let Some(m) = self.mount_at[at_node] {
+                    let load = self.mounts[m].load.wrench;
+                    given += velocity.pair(&(load + self.reaction(m)));
+                }
+                at_node += 1;
+            });
         }
         [damping, given]
     }

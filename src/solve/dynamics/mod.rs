@@ -6,17 +6,22 @@
 
 mod alpha;
 mod begin;
+mod border;
 mod conserve;
+mod consistent;
 mod core;
 mod engine;
 mod factor;
 mod failure;
 mod frame;
 mod grid;
+mod linear;
 mod march;
 mod modes;
+mod mount;
 mod newton;
 mod options;
+mod place;
 mod present;
 mod relation;
 mod report;

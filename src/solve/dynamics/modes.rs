@@ -1,17 +1,19 @@
-use nalgebra::{Cholesky, DMatrix, Matrix6, SymmetricEigen, Vector6};
+use nalgebra::{Cholesky, DMatrix, DVector, Matrix6, RowVector6, SymmetricEigen, Vector6};
 
 use super::begin::{balance, set_strains};
 use super::core::Core;
 use super::engine::on_mesh;
 use super::failure::{Failure, Reason};
+use super::mount::Mount;
 use super::options::Dynamics;
 use super::relation::Relation;
 use super::scene::{Movable, Scene};
 use super::state::Start;
 use crate::error::{Error, Result};
-use crate::lie::{Strain, Twist};
+use crate::lie::{Strain, Twist, Wrench};
 use crate::material::Request;
 use crate::rod::adjoint::AdjointElement;
+use crate::rod::support::Condition;
 use crate::solve::Order;
 
 /// A small vibration about an equilibrium: every section moves with ζ(s) cos ωt, small and in its own frame.
@@ -19,7 +21,7 @@ use crate::solve::Order;
 pub struct Mode {
     /// ω², 1/s²; negative where the equilibrium is unstable, and zero but for rounding for a rigid motion of a free rod.
     pub omega_squared: f64,
-    /// The displacements of the nodes, base to tip.
+    /// The displacements of the nodes, base to tip, which are those of a [`Frame`](super::Frame).
     pub nodes: Vec<Twist>,
     /// Displacements and strains at the Gauss stages, base to tip.
     pub stages: Vec<ModeStage>,
@@ -51,7 +53,8 @@ impl Mode {
 }
 
 impl Dynamics {
-    /// The slowest modes about the static equilibrium nearest to a start, undamped, slowest first, each with ∫ζᵀ M ζ ds = 1.
+    /// The slowest modes about the static equilibrium nearest to a start, undamped, slowest first, each with ∫ζᵀ M ζ ds = 1 (and the
+    /// like of rigid bodies with it), under what the supports and fixed strains allow.
     ///
     /// ```math
     /// K\,\delta\xi = \omega^2 M\,\delta\xi
@@ -102,82 +105,206 @@ fn modes_of<B: Movable, const S: usize>(
     count: usize,
 ) -> Result<Vec<Mode>, Reason> {
     core.at_time(scene, start.time).map_err(Reason::Inadmissible)?;
-    set_strains(&mut core, scene, start)?;
+    set_strains(&mut core, start)?;
     balance(&mut core, scene, options.tolerance, options.max_iterations.max(50))?;
-    let free = scene.is_free();
-    let zero = Matrix6::zeros();
-    let mut matrices = [Relation::Static, Relation::Held].map(|relation| (relation, DMatrix::zeros(0, 0)));
+    // Held first: the state is left with the wrenches of the equilibrium
+    let mut basis = DMatrix::zeros(0, 0);
+    let mut matrices = [Relation::Held, Relation::Static].map(|relation| (relation, DMatrix::zeros(0, 0)));
     for (relation, matrix) in &mut matrices {
         core.problem.relation = *relation;
         core.problem.stiffness = if *relation == Relation::Held { 0.0 } else { 1.0 };
-        core.move_to_strains(false);
+        core.move_to_strains();
         core.respond(scene, Request::Tangent).map_err(Reason::Inadmissible)?;
         core.balance();
-        let elements: Vec<_> = (0..core.grid.elements).map(|i| core.element(i, &zero)).collect();
-        *matrix = assemble(&elements, &core.tip_relation(), free);
+        let linear = LinearRod::new(&core);
+        if basis.is_empty() {
+            basis = linear.basis(&core);
+        }
+        let whole = linear.assemble();
+        *matrix = basis.transpose() * whole * &basis;
     }
-    let [(_, stiffness), (_, mass)] = matrices;
+    let [(_, mass), (_, stiffness)] = matrices;
     let unit = mass.diagonal().sum() / stiffness.diagonal().sum();
-    let pairs = eigenpairs(&stiffness, &mass, unit, free, count).map_err(Reason::Singular)?;
-    Ok(pairs.into_iter().map(|(omega_squared, q)| shape(&core, omega_squared, &q, free)).collect())
+    let pairs = eigenpairs(&stiffness, &mass, unit, core.loose, count).map_err(Reason::Singular)?;
+    let shape =
+        |(omega_squared, q): (f64, DVector<f64>)| shape(&core, omega_squared, (&basis * q).as_slice());
+    Ok(pairs.into_iter().map(shape).collect())
 }
 
-/// The matrix whose columns are what the linearised rod answers to unit strains, and to unit displacements of a free base; symmetric.
-fn assemble<const S: usize>(elements: &[AdjointElement<S>], tip: &Matrix6<f64>, free: bool) -> DMatrix<f64> {
-    let strains = 6 * S * elements.len();
-    let n = strains + if free { 6 } else { 0 };
-    let mut matrix = DMatrix::zeros(n, n);
-    let mut q = vec![0.0; n];
-    for column in 0..n {
-        q[column] = 1.0;
-        let answer = apply(elements, tip, &q);
-        matrix.column_mut(column).copy_from_slice(&answer[..n]);
-        q[column] = 0.0;
+/// The rod linearised in its strains, and in the displacement of a base that can move.
+pub(super) struct LinearRod<'a, const S: usize> {
+    core: &'a Core<S>,
+    elements: Vec<AdjointElement<S>>,
+    /// What the wrench on the section of each mount answers to a displacement of it.
+    tangents: Vec<Matrix6<f64>>,
+}
+
+impl<'a, const S: usize> LinearRod<'a, S> {
+    /// About the state that `core` has balanced.
+    fn new(core: &'a Core<S>) -> Self {
+        let relation = core.problem.relation;
+        let elements = (0..core.grid.elements).map(|i| core.element(i, &Matrix6::zeros())).collect();
+        let tangent = |(m, mount): (usize, &Mount)| {
+            let mut tangent = mount.force_tangent(&relation);
+            if !mount.support.is_free() && relation != Relation::Held {
+                // −Σ (∂χ_j/∂ζ)ᵀ ∂(Q_j + k χ_j)/∂ζ over what is not held
+                let (pose, rows) = (&core.node_pose[mount.node], core.equations(m));
+                let chi = mount.coordinate_map(pose);
+                for (j, condition) in mount.support.conditions().iter().enumerate() {
+                    if !matches!(condition, Condition::Fixed(_)) {
+                        tangent -= chi.row(j).transpose() * rows.from_zeta.row(j);
+                    }
+                }
+            }
+            tangent
+        };
+        let tangents = core.mounts.iter().enumerate().map(tangent).collect();
+        Self { core, elements, tangents }
     }
-    let transpose = matrix.transpose();
-    (matrix + transpose) * 0.5
+
+    fn strains(&self) -> usize {
+        6 * S * self.elements.len()
+    }
+
+    fn size(&self) -> usize {
+        self.strains() + if self.core.loose { 6 } else { 0 }
+    }
+
+    /// The displacement of every node, before its corner.
+    fn displacements(&self, q: &[f64]) -> Vec<Vector6<f64>> {
+        let strains = self.strains();
+        let mut zeta = vec![if q.len() > strains { six(q, strains) } else { Vector6::zeros() }];
+        for (i, element) in self.elements.iter().enumerate() {
+            let mut next = element.end_inverse.apply(&self.turned_on(i, &zeta[i]));
+            for k in 0..S {
+                next += element.end[k].apply(&Twist::from_vector(&six(q, 6 * (S * i + k))));
+            }
+            zeta.push(next.to_vector());
+        }
+        zeta
+    }
+
+    fn turned_on(&self, i: usize, zeta: &Vector6<f64>) -> Twist {
+        let zeta = Twist::from_vector(zeta);
+        self.core.between(i).map_or(zeta, |mount| mount.turned_on(&zeta))
+    }
+
+    /// The matrix whose columns are what the rod answers to unit strains, and to unit displacements of a base that can move; symmetric.
+    fn assemble(&self) -> DMatrix<f64> {
+        let n = self.size();
+        let mut matrix = DMatrix::zeros(n, n);
+        let mut q = vec![0.0; n];
+        for column in 0..n {
+            q[column] = 1.0;
+            let answer = self.apply(&q);
+            matrix.column_mut(column).copy_from_slice(&answer[..n]);
+            q[column] = 0.0;
+        }
+        let transpose = matrix.transpose();
+        (matrix + transpose) * 0.5
+    }
+
+    /// The residuals of the stages, and minus the wrench on the base.
+    fn apply(&self, q: &[f64]) -> Vec<f64> {
+        let zeta = self.displacements(q);
+        let n = self.elements.len();
+        let mut answer = vec![0.0; self.strains() + 6];
+        let mut wrench = self.tangents[self.tangents.len() - 1] * zeta[n];
+        for (i, element) in self.elements.iter().enumerate().rev() {
+            let beyond = Wrench::from_vector(&wrench);
+            let start = self.turned_on(i, &zeta[i]).to_vector();
+            let mut before = element.end_inverse.apply_transpose(&beyond).to_vector() + element.u * start;
+            for k in 0..S {
+                let mut row = -element.end[k].apply_transpose(&beyond).to_vector() - element.p[k] * start;
+                for m in 0..S {
+                    row += element.a[k][m] * six(q, 6 * (S * i + m));
+                }
+                answer[6 * (S * i + k)..6 * (S * i + k) + 6].copy_from_slice(row.as_slice());
+                before -= element.q[k] * six(q, 6 * (S * i + k));
+            }
+            if let Some(mount) = self.core.between(i) {
+                before = mount.turned_back(&Wrench::from_vector(&before)).to_vector();
+            }
+            if let Some(m) = self.core.mount_at[i] {
+                before += self.tangents[m] * zeta[i];
+            }
+            wrench = before;
+        }
+        let base = self.strains();
+        answer[base..].copy_from_slice((-wrench).as_slice());
+        answer
+    }
+
+    /// The motions that fixed strains and supports allow, as columns.
+    fn basis(&self, core: &Core<S>) -> DMatrix<f64> {
+        let (n, strains) = (self.size(), self.strains());
+        let free: Vec<usize> = (0..n).filter(|&c| c >= strains || !core.grid.fixed[c % 6]).collect();
+        let held = |mount: &&Mount| !mount.support.is_free() && (mount.node > 0 || core.loose);
+        let mut rows: Vec<(usize, RowVector6<f64>)> = Vec::new();
+        for mount in core.mounts.iter().filter(held) {
+            let chi = mount.coordinate_map(&core.node_pose[mount.node]);
+            for (j, condition) in mount.support.conditions().iter().enumerate() {
+                if matches!(condition, Condition::Fixed(_)) {
+                    let unit = if j < 3 { 1.0 } else { core.grid.length };
+                    rows.push((mount.node, chi.row(j) / unit));
+                }
+            }
+        }
+        let mut conditions = DMatrix::zeros(rows.len(), free.len());
+        let mut q = vec![0.0; n];
+        for (c, &unknown) in free.iter().enumerate() {
+            q[unknown] = 1.0;
+            let zeta = self.displacements(&q);
+            for (r, (node, row)) in rows.iter().enumerate() {
+                conditions[(r, c)] = (row * zeta[*node])[0];
+            }
+            q[unknown] = 0.0;
+        }
+        let inner = null_space(conditions);
+        let mut basis = DMatrix::zeros(n, inner.ncols());
+        for (r, &unknown) in free.iter().enumerate() {
+            basis.row_mut(unknown).copy_from(&inner.row(r));
+        }
+        basis
+    }
+}
+
+/// A basis of the vectors that a matrix of few rows sends to zero: elimination with complete pivoting.
+fn null_space(mut rows: DMatrix<f64>) -> DMatrix<f64> {
+    /// A pivot this small says nothing that others have not said.
+    const NOTHING: f64 = 1e-10;
+    let n = rows.ncols();
+    let mut pivots: Vec<usize> = Vec::new();
+    for r in 0..rows.nrows() {
+        let rest = rows.rows(r, rows.nrows() - r);
+        let (row, column) = rest.iamax_full();
+        if !(rest[(row, column)].abs() > NOTHING) {
+            break;
+        }
+        rows.swap_rows(r, r + row);
+        let scale = 1.0 / rows[(r, column)];
+        rows.row_mut(r).scale_mut(scale);
+        for other in (0..rows.nrows()).filter(|&other| other != r) {
+            let factor = rows[(other, column)];
+            let change = rows.row(r) * factor;
+            let mut target = rows.row_mut(other);
+            target -= change;
+        }
+        pivots.push(column);
+    }
+    let others: Vec<usize> = (0..n).filter(|c| !pivots.contains(c)).collect();
+    let mut basis = DMatrix::zeros(n, others.len());
+    for (c, &other) in others.iter().enumerate() {
+        basis[(other, c)] = 1.0;
+        for (r, &pivot) in pivots.iter().enumerate() {
+            basis[(pivot, c)] = -rows[(r, other)];
+        }
+    }
+    basis
 }
 
 fn six(q: &[f64], at: usize) -> Vector6<f64> {
     Vector6::from_column_slice(&q[at..at + 6])
-}
-
-/// The displacement of every node.
-fn displacements<const S: usize>(elements: &[AdjointElement<S>], q: &[f64]) -> Vec<Vector6<f64>> {
-    let strains = 6 * S * elements.len();
-    let mut zeta = vec![if q.len() > strains { six(q, strains) } else { Vector6::zeros() }];
-    for (i, element) in elements.iter().enumerate() {
-        let mut next = element.end_inverse.apply(&Twist::from_vector(&zeta[i]));
-        for k in 0..S {
-            next += element.end[k].apply(&Twist::from_vector(&six(q, 6 * (S * i + k))));
-        }
-        zeta.push(next.to_vector());
-    }
-    zeta
-}
-
-/// The residuals of the stages, and minus the wrench at the base.
-fn apply<const S: usize>(elements: &[AdjointElement<S>], tip: &Matrix6<f64>, q: &[f64]) -> Vec<f64> {
-    use crate::lie::Wrench;
-    let zeta = displacements(elements, q);
-    let mut answer = vec![0.0; 6 * S * elements.len() + 6];
-    let mut wrench = tip * zeta[elements.len()];
-    for (i, element) in elements.iter().enumerate().rev() {
-        let beyond = Wrench::from_vector(&wrench);
-        let mut before = element.end_inverse.apply_transpose(&beyond).to_vector() + element.u * zeta[i];
-        for k in 0..S {
-            let mut row = -element.end[k].apply_transpose(&beyond).to_vector() - element.p[k] * zeta[i];
-            for m in 0..S {
-                row += element.a[k][m] * six(q, 6 * (S * i + m));
-            }
-            answer[6 * (S * i + k)..6 * (S * i + k) + 6].copy_from_slice(row.as_slice());
-            before -= element.q[k] * six(q, 6 * (S * i + k));
-        }
-        wrench = before;
-    }
-    let base = 6 * S * elements.len();
-    answer[base..].copy_from_slice((-wrench).as_slice());
-    answer
 }
 
 /// The smallest ω² with K q = ω² M q and qᵀ M q = 1, from the largest 1/(ω² + σ) of (K + σM)⁻¹ M: the wanted ones come with all their digits.
@@ -187,9 +314,9 @@ fn eigenpairs(
     unit: f64,
     free: bool,
     count: usize,
-) -> Result<Vec<(f64, Vec<f64>)>> {
+) -> Result<Vec<(f64, DVector<f64>)>> {
     let shifts = std::iter::once(0.0).chain((-12..=6).map(|power| 10.0_f64.powi(power) / unit));
-    for shift in shifts.skip(usize::from(free)) {
+    for shift in shifts {
         let shifted = stiffness + mass * shift;
         let scale = shifted.diagonal().map(|d| 1.0 / d.abs().max(f64::MIN_POSITIVE).sqrt());
         let scaled =
@@ -212,7 +339,7 @@ fn eigenpairs(
             // q = S L⁻ᵀ y has qᵀ M q = μ
             let y = l.tr_solve_lower_triangular(&eigen.eigenvectors.column(i).into_owned())?;
             let q = y.component_mul(&scale) / mu.sqrt();
-            Some((1.0 / mu - shift, q.as_slice().to_vec()))
+            Some((1.0 / mu - shift, q))
         });
         return Ok(pairs.collect());
     }
@@ -220,17 +347,21 @@ fn eigenpairs(
 }
 
 /// A mode from its strains, by the kinematics of `core`.
-fn shape<const S: usize>(core: &Core<S>, omega_squared: f64, q: &[f64], free: bool) -> Mode {
+fn shape<const S: usize>(core: &Core<S>, omega_squared: f64, q: &[f64]) -> Mode {
     let strains = 6 * S * core.grid.elements;
-    let mut node = if free { Twist::from_vector(&six(q, strains)) } else { Twist::zero() };
+    let mut node = if core.loose { Twist::from_vector(&six(q, strains)) } else { Twist::zero() };
     let mut mode = Mode { omega_squared, nodes: vec![node], stages: Vec::new() };
     for i in 0..core.grid.elements {
+        if let Some(mount) = core.between(i) {
+            node = mount.turned_on(&node);
+            mode.nodes.push(node);
+        }
         let rate: [Twist; S] = std::array::from_fn(|k| Twist::from_vector(&six(q, 6 * (S * i + k))));
-        let (stage, end) = core.legs[i].velocities(&core.grid.table, core.grid.h(), &node, &rate);
+        let (stage, end) = core.legs[i].velocities(&core.grid.table, core.grid.h(i), &node, &rate);
         for k in 0..S {
             mode.stages.push(ModeStage {
                 s: core.grid.stage_s(i, k),
-                weight: core.grid.weight(k),
+                weight: core.grid.weight(i, k),
                 displacement: stage[k],
                 strain: Strain::new(rate[k].angular, rate[k].linear),
             });

@@ -1,7 +1,6 @@
 //! Newton's method for one instant, with factors that are kept while it converges fast.
 
 use super::core::Core;
-use super::factor::BaseRows;
 use super::failure::Reason;
 use super::relation::Relation;
 use super::scene::{Movable, Scene};
@@ -35,6 +34,9 @@ const HALVINGS: usize = 8;
 /// A step below this that no longer shrinks is rounding.
 const ROUNDING_STEP: f64 = 1e-9;
 
+/// So many steps below that are enough, however they go.
+const SMALL_STEPS: usize = 5;
+
 /// What Newton's method keeps from one solve to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Memory {
@@ -62,8 +64,6 @@ pub(super) struct Newton<'a> {
     pub(super) max_iterations: usize,
     pub(super) memory: &'a mut Memory,
     pub(super) effort: &'a mut Effort,
-    /// Whether the base stays where it is, even if it is free.
-    pub(super) held: bool,
 }
 
 impl Newton<'_> {
@@ -73,13 +73,11 @@ impl Newton<'_> {
         core: &mut Core<S>,
         scene: &Scene<'_, B>,
     ) -> Result<(), Reason> {
-        let free = scene.is_free() && !self.held;
-        let rows = if free { BaseRows::free() } else { BaseRows::held() };
         let mut renew = self.memory.factored != Some(core.problem.relation);
         let (mut previous, mut taken, mut halvings, mut fresh) = (f64::INFINITY, 0.0, 0, false);
-        let mut last = (0.0, 0.0);
+        let (mut last, mut small_steps) = ((0.0, 0.0), 0);
         for iteration in 0..self.max_iterations {
-            core.move_to_strains(free);
+            core.move_to_strains();
             let request = if renew { Request::Tangent } else { Request::Wrench };
             if let Err(error) = core.respond(scene, request) {
                 if iteration == 0 || halvings == HALVINGS {
@@ -93,18 +91,20 @@ impl Newton<'_> {
             }
             core.balance();
             if renew {
-                core.factor(&rows).map_err(Reason::Singular)?;
+                core.factor().map_err(Reason::Singular)?;
                 self.memory.factored = Some(core.problem.relation);
                 self.memory.rate = FRESH;
                 self.effort.factorisations += 1;
                 fresh = true;
                 previous = f64::INFINITY; // by another tangent
             }
-            let step = core.newton_step(&rows, free).map_err(Reason::Singular)?;
+            let step = core.newton_step().map_err(Reason::Singular)?;
             self.effort.iterations += 1;
             last = (step.size, step.s);
             let known = previous.is_finite();
-            let rounding = step.size < ROUNDING_STEP && step.size > 0.5 * previous;
+            small_steps += usize::from(step.size < ROUNDING_STEP);
+            let rounding =
+                step.size < ROUNDING_STEP && (step.size > 0.5 * previous || small_steps == SMALL_STEPS);
             if known && !rounding {
                 self.memory.rate = (step.size / previous).clamp(LEAST_RATE, 1.0);
                 if fresh && step.size > HOPELESS * previous {
@@ -117,7 +117,7 @@ impl Newton<'_> {
             let left = step.size * self.memory.rate / (1.0 - self.memory.rate.min(0.5));
             let small = step.size <= self.tolerance || left <= self.tolerance || rounding;
             if taken == 1.0 && small {
-                core.move_to_strains(free);
+                core.move_to_strains();
                 return turned_too_far(core);
             }
             previous = if taken == 1.0 { step.size } else { f64::INFINITY };

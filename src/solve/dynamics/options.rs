@@ -201,6 +201,13 @@ impl Dynamics {
         {
             return invalid("rho at infinity", rho, "from 0 to 1");
         }
+        if let Scheme::GeneralisedAlpha { rho } = self.scheme
+            && rho == 1.0
+            && scene.is_constrained()
+        {
+            let requirement = "below 1 where supports hold the tip or a place between, or strains are fixed";
+            return invalid("rho at infinity", rho, requirement);
+        }
         if self.conserve && !scene.is_alone() {
             return invalid(
                 "conservation asked for",

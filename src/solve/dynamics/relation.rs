@@ -11,6 +11,8 @@ pub(super) enum Relation {
     Static,
     /// Velocity and acceleration are given; what is sought is a correction of the acceleration, in the place of a displacement.
     Held,
+    /// Velocity is given; what is sought is a correction of it.
+    Impulse,
     /// η = c_v φ + η₀, η̇ = c_a φ + η̇₀, ξ̇ = c_v (ξ − ξ_n) + ξ̇₀.
     Newmark { velocity: f64, acceleration: f64 },
     /// φ̇ = c φ + φ̇₀, η = dexp₋φ φ̇, η̇ = c η + η̇₀, ξ̇ = c (ξ − ξ_n) + ξ̇₀.
@@ -52,7 +54,7 @@ impl Relation {
     /// As a kind and two coefficients.
     pub(super) fn to_numbers(self) -> (u8, f64, f64) {
         match self {
-            Self::Static | Self::Held => (0, 0.0, 0.0),
+            Self::Static | Self::Held | Self::Impulse => (0, 0.0, 0.0),
             Self::Newmark { velocity, acceleration } => (1, velocity, acceleration),
             Self::RungeKutta { c } => (2, c, 0.0),
         }
@@ -71,7 +73,7 @@ impl Relation {
     pub(super) fn rates(&self, before: &Pose, now: &Pose, offset: &Offset) -> Rates {
         match *self {
             Self::Static => Rates::zero(),
-            Self::Held => Rates {
+            Self::Held | Self::Impulse => Rates {
                 phi: Twist::zero(),
                 slope: offset.velocity,
                 velocity: offset.velocity,
@@ -96,10 +98,15 @@ impl Relation {
         }
     }
 
+    /// Whether what is sought is a rate, in the place of a displacement: the pose stays.
+    pub(super) fn is_of_rates(&self) -> bool {
+        matches!(self, Self::Held | Self::Impulse)
+    }
+
     /// The factor of ξ in ξ̇.
     pub(super) fn strain_factor(&self) -> f64 {
         match *self {
-            Self::Static | Self::Held => 0.0,
+            Self::Static | Self::Held | Self::Impulse => 0.0,
             Self::Newmark { velocity, .. } => velocity,
             Self::RungeKutta { c } => c,
         }
@@ -129,7 +136,7 @@ impl Relation {
         };
         match *self {
             Self::Static => Matrix6::zeros(),
-            Self::Held => -mass,
+            Self::Held | Self::Impulse => -mass,
             Self::Newmark { velocity, acceleration } => {
                 map(velocity, acceleration, &se3::dexp_inv(&-rates.phi))
             }

@@ -21,7 +21,9 @@ impl<const S: usize> March<S> {
         let mut made = Made::default();
         begin_step(core, present);
         let first = &mut self.slopes[0];
-        first.base = [present.base.velocity, present.base.acceleration];
+        for (slopes, m) in first.mounts.iter_mut().zip(&present.mounts) {
+            *slopes = [m.velocity, m.acceleration];
+        }
         first.power = present.power;
         for (slopes, points) in first.points.iter_mut().zip(&present.points) {
             *slopes = points.map(|p| (p.velocity, p.acceleration, p.strain_rate));
@@ -30,10 +32,12 @@ impl<const S: usize> March<S> {
         for stage in 1..STAGES {
             self.set_offsets(core, present, stage, dt);
             core.at_time(scene, present.time + C[stage] * dt).map_err(Reason::Inadmissible)?;
-            self.guess(core, scene, present, stage, dt);
+            self.guess(core, present, stage, dt);
             self.solve(core, scene, present, how, &mut made)?;
             let slopes = &mut self.slopes[stage];
-            slopes.base = [core.base_rates.slope, core.base_rates.acceleration];
+            for (slopes, mount) in slopes.mounts.iter_mut().zip(&core.mounts) {
+                *slopes = [mount.rates.slope, mount.rates.acceleration];
+            }
             for i in 0..core.grid.elements {
                 for k in 0..S {
                     let rates = &core.rates[i][k];
@@ -53,7 +57,7 @@ impl<const S: usize> March<S> {
             for (rates, slopes) in self.last_rates[old].iter_mut().zip(&self.slopes[new].points) {
                 *rates = slopes.map(|(_, _, rate)| rate);
             }
-            self.last_base[old] = self.slopes[new].base[0];
+            self.last_base[old] = self.slopes[new].mounts[0][0];
         }
         let sum = |which: usize| -> f64 {
             (0..STAGES).map(|j| WEIGHTS[j] * self.slopes[j].power[which]).sum::<f64>() * dt
@@ -68,13 +72,16 @@ impl<const S: usize> March<S> {
         let c = 1.0 / (GAMMA * dt);
         let weights: [f64; STAGES] = std::array::from_fn(|j| -A[stage][j] / GAMMA);
         let earlier = &self.slopes[..stage];
-        let p = &mut core.problem;
-        let mut base = Offset { velocity: Twist::zero(), acceleration: present.base.velocity * -c };
-        for (slopes, &weight) in earlier.iter().zip(&weights) {
-            base.velocity += slopes.base[0] * weight;
-            base.acceleration += slopes.base[1] * weight;
+        for (m, mount) in core.mounts.iter_mut().enumerate() {
+            let acceleration = present.mounts[m].velocity * -c;
+            mount.offset = Offset { velocity: Twist::zero(), acceleration };
+            for (slopes, &weight) in earlier.iter().zip(&weights) {
+                let [slope, acceleration] = slopes.mounts[m];
+                mount.offset.velocity += slope * weight;
+                mount.offset.acceleration += acceleration * weight;
+            }
         }
-        p.base_offset = base;
+        let p = &mut core.problem;
         for i in 0..core.grid.elements {
             for k in 0..S {
                 let mut offset =
@@ -94,14 +101,7 @@ impl<const S: usize> March<S> {
 
     /// Strains at a stage from an interpolation of the rates of strain known so far.
     #[inline(always)]
-    fn guess<B: Movable>(
-        &self,
-        core: &mut Core<S>,
-        scene: &Scene<'_, B>,
-        present: &Present<S>,
-        stage: usize,
-        dt: f64,
-    ) {
+    fn guess(&self, core: &mut Core<S>, present: &Present<S>, stage: usize, dt: f64) {
         /// Which earlier stages are used; −1 and −2 are the last but one and the one before of the previous step.
         const SOURCES: [&[i8]; STAGES] =
             [&[], &[0, -1, -2], &[0, 1, -1], &[0, 1, 2], &[0, 1, 2, 3], &[1, 2, 3, 4]];
@@ -127,11 +127,11 @@ impl<const S: usize> March<S> {
             phi += match sources[j] {
                 -1 => self.last_base[0],
                 -2 => self.last_base[1],
-                source => self.slopes[source as usize].base[0],
+                source => self.slopes[source as usize].mounts[0][0],
             } * (dt * weights[j]);
         }
-        if scene.is_free() {
-            core.base = present.base.pose * phi.exp();
+        if core.loose {
+            core.base = present.base().pose * phi.exp();
         }
         for i in 0..core.grid.elements {
             for k in 0..S {

@@ -13,7 +13,8 @@ pub enum Scheme {
     /// Generalised-α on the Lie group: one implicit solve a step, order 2.
     ///
     /// `rho` is ρ∞, the factor by which a step multiplies the highest frequencies: 1 keeps the energy of all, 0.9 takes the noise away, 0 kills
-    /// them in a step. Source: Brüls and Cardona (2010), J. Comput. Nonlinear Dyn. 5, 031002; Arnold, Brüls and Cardona (2015).
+    /// them in a step. Where supports hold more than the base, or strains are fixed, the forces that do it are noise that grows unless ρ∞ < 1: 1 is
+    /// refused there (Arnold and Brüls 2007, Multibody Syst. Dyn. 18, 185). Source: Brüls and Cardona (2010), J. Comput. Nonlinear Dyn. 5, 031002; Arnold, Brüls and Cardona (2015).
     GeneralisedAlpha {
         /// ρ∞ in [0, 1].
         rho: f64,

@@ -10,7 +10,7 @@ pub struct State {
     pub(super) time: f64,
     pub(super) stages: usize,
     pub(super) base_pose: [f64; 12],
-    pub(super) base: [[f64; 6]; 3],
+    pub(super) mounts: Vec<[[f64; 6]; 4]>,
     pub(super) strain: Vec<[f64; 6]>,
     pub(super) strain_rate: Vec<[f64; 6]>,
     pub(super) strain_second: Vec<[f64; 6]>,
@@ -90,7 +90,9 @@ impl Start {
 
     /// At rest in a static equilibrium, which is improved to that of the mesh of the motion.
     ///
-    /// The loads are those of the scene at the time it starts.
+    /// The loads are those of the scene at the time it starts: its rod's, and the timed ones with their amplitudes at that time. What was solved
+    /// under other loads, a ramp at its end for instance, is thus moved to an equilibrium under those of the start; to let a rod go
+    /// from a shape that its loads at the start do not hold, use [`with_strain`](Self::with_strain).
     pub fn equilibrium(solution: &StaticSolution) -> Self {
         let points: Vec<(f64, Strain)> = solution.stages().iter().map(|n| (n.s, n.strain)).collect();
         let strain = move |s: f64| {
@@ -101,7 +103,8 @@ impl Start {
             let tau = (s - a) / (b - a);
             *left * (1.0 - tau) + *right * tau
         };
-        Self { strain: Some(Box::new(strain)), balanced: true, ..Self::at_rest() }
+        let base = Some(solution.base().pose);
+        Self { strain: Some(Box::new(strain)), base, balanced: true, ..Self::at_rest() }
     }
 
     /// The same with its strains improved to a static equilibrium of the mesh of the motion, from which it then begins at rest.
@@ -124,12 +127,12 @@ impl Start {
         Self { strain_rate: Some(Box::new(rate)), ..self }
     }
 
-    /// The same with a free base in this pose.
+    /// The same with the base in this pose, where its support leaves it free to be.
     pub fn with_base(self, pose: Pose) -> Self {
         Self { base: Some(pose), ..self }
     }
 
-    /// The same with this velocity of a free base, body frame.
+    /// The same with this velocity of a base that is free to have it, body frame.
     pub fn with_base_velocity(self, velocity: Twist) -> Self {
         Self { base_velocity: velocity, ..self }
     }

@@ -8,7 +8,7 @@ use super::verdict::{
 };
 use crate::body::Elastic;
 use crate::solve::cascade::Cascade;
-use crate::solve::continuation::{End, Stride, trace};
+use crate::solve::continuation::{End, EventKind, Stride, trace};
 use crate::solve::describe::describe;
 use crate::solve::failure::{Failure, Reason};
 use crate::solve::mesh::Mesh;
@@ -16,14 +16,20 @@ use crate::solve::newton::Outcome;
 use crate::solve::report::{Rung, Stability};
 use crate::solve::unknowns::Unknowns;
 
-/// Elements of the mesh on which a stable state is looked for, at the least.
-const ELEMENTS: usize = 8;
+/// Elements of the meshes on which a stable state is looked for, one after the other, at the least.
+const ELEMENTS: [usize; 3] = [8, 32, 96];
 
 /// And at the most, if the first mesh is not finer already.
 const MOST_ELEMENTS: usize = 200;
 
-/// Points of the path that the last rung may walk.
-const POINTS: usize = 400;
+/// On more elements no path is walked again: a search takes seconds there, and paths hardly depend on the mesh.
+const MOST_ON_A_PATH: usize = 64;
+
+/// Points of the path that the last rung may walk for each iteration that Newton's method is allowed.
+const POINTS: usize = 10;
+
+/// Tolerance of a point on it.
+const CLOSE: f64 = 1e-7;
 
 type Climbed<'r, B, const S: usize> = Result<(Mesh<'r, B, S>, Outcome<S>), Box<Failure>>;
 
@@ -37,6 +43,10 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         self.report.reach(Rung::Newton);
         let mut failed = None;
         for mesh in meshes {
+            if let Some(failure) = self.failed.take() {
+                // the answer on this mesh was of no use
+                return self.climb_on(&mesh, None).ok_or_else(|| self.with_report(failure));
+            }
             match self.solve(&mesh, Unknowns::at_rest(&mesh)) {
                 Ok(outcome) => return self.stay(mesh, outcome),
                 Err(failure) => {
@@ -48,7 +58,7 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
             let reason = Reason::IterationLimit { limit: 0, step: f64::NAN, tolerance: f64::NAN };
             return Err(Box::new(Failure { reason, report: self.report.clone(), last: None }));
         };
-        self.climb_on(mesh, None).ok_or_else(|| self.with_report(failure))
+        self.climb_on(&mesh, None).ok_or_else(|| self.with_report(failure))
     }
 
     /// An equilibrium if it stays, or a stable one.
@@ -65,47 +75,108 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
             return Ok((mesh, outcome));
         }
         let failure = unstable(&mesh, &outcome, stability, self);
-        self.climb_on(mesh, Some(outcome)).ok_or_else(|| self.with_report(failure))
+        self.climb_on(&mesh, Some(&outcome)).ok_or_else(|| self.with_report(failure))
     }
 
     /// A failure after all rungs.
-    fn with_report(&self, mut failure: Box<Failure>) -> Box<Failure> {
+    fn with_report(&mut self, mut failure: Box<Failure>) -> Box<Failure> {
+        self.exhausted = true;
         failure.report = self.report.clone();
+        if let (Some((load_factor, last)), false) =
+            (self.turned.take(), matches!(failure.reason, Reason::Unstable { .. }))
+        {
+            failure.reason = Reason::LimitPoint { load_factor };
+            failure.last = Some(last);
+        }
         failure
     }
 
-    /// The rungs after the first.
+    /// The rungs after the first, on ever finer meshes: what a coarse one cannot tell a finer one may.
     fn climb_on(
         &mut self,
-        mesh: Mesh<'r, B, S>,
-        unstable: Option<Outcome<S>>,
+        mesh: &Mesh<'r, B, S>,
+        unstable: Option<&Outcome<S>>,
     ) -> Option<(Mesh<'r, B, S>, Outcome<S>)> {
-        let (mut mesh, from) = self.cut(mesh, unstable.as_ref());
-        for rung in [Rung::Regularised, Rung::LoadSteps, Rung::ArcLength] {
-            self.report.reach(rung);
-            let found = match rung {
-                Rung::LoadSteps => load_steps(&mut mesh, self.buffers, &mut self.report.iterations),
-                Rung::ArcLength => self.along_the_path(&mut mesh),
-                _ => descend(&mesh, &from, self.buffers, &mut self.report.iterations),
-            };
-            if let Some(outcome) = found.and_then(|found| self.stable(&mesh, found)) {
-                return Some((mesh, outcome));
+        let mut before = 0;
+        for tier in self.tier..ELEMENTS.len() {
+            self.tier = tier;
+            let (mut mesh, from) = self.cut(mesh, unstable, ELEMENTS[tier]);
+            if mesh.elements() <= before {
+                continue;
+            }
+            let again = before > 0;
+            before = mesh.elements();
+            for rung in [Rung::Regularised, Rung::LoadSteps, Rung::ArcLength] {
+                let found = match rung {
+                    Rung::Regularised => self.descend(&mesh, &from),
+                    _ if again && mesh.elements() > MOST_ON_A_PATH || self.turned.is_some() => continue,
+                    Rung::LoadSteps => self.load_steps(&mut mesh),
+                    _ => self.along_the_path(&mut mesh),
+                };
+                self.report.reach(rung);
+                if let Some(outcome) = found.and_then(|found| self.stable(&mesh, found)) {
+                    return Some((mesh, outcome));
+                }
             }
         }
         None
     }
 
+    /// Whether there is another way to try, where an answer on the mesh asked for is not found from the one on the first mesh: first a stable one
+    /// there, then finer first meshes.
+    pub(in crate::solve) fn next_try(&mut self, failure: &Failure) -> bool {
+        if self.exhausted {
+            return false;
+        }
+        if !self.careful {
+            self.careful = true;
+            return true;
+        }
+        if matches!(failure.reason, Reason::Accuracy { .. }) {
+            return false;
+        }
+        self.tier += 1;
+        self.failed = Some(Box::new(failure.clone()));
+        self.tier < ELEMENTS.len()
+    }
+
+    fn load_steps(&mut self, mesh: &mut Mesh<'r, B, S>) -> Option<Unknowns<S>> {
+        let most = self.newton.max_iterations;
+        self.observed(|this| load_steps(mesh, most, this.buffers, &mut this.report.iterations))
+    }
+
+    pub(in crate::solve) fn descend(
+        &mut self,
+        mesh: &Mesh<'r, B, S>,
+        from: &Unknowns<S>,
+    ) -> Option<Unknowns<S>> {
+        let most = self.newton.max_iterations;
+        self.observed(|this| descend(mesh, from, most, this.buffers, &mut this.report.iterations))
+    }
+
+    /// Shows the observer the iterations that a search adds to the report.
+    fn observed<T>(&mut self, search: impl FnOnce(&mut Self) -> T) -> T {
+        let before = self.report.iterations.len();
+        let found = search(self);
+        self.report.iterations[before..].iter().for_each(|iteration| (self.newton.observer)(iteration));
+        found
+    }
+
     /// A mesh fine enough to tell what is stable, and where to start on it.
-    fn cut(&mut self, mesh: Mesh<'r, B, S>, unstable: Option<&Outcome<S>>) -> (Mesh<'r, B, S>, Unknowns<S>) {
-        let least = ELEMENTS.div_ceil(mesh.elements());
-        let mut parts = vec![least; mesh.elements()];
+    fn cut(
+        &mut self,
+        mesh: &Mesh<'r, B, S>,
+        unstable: Option<&Outcome<S>>,
+        least: usize,
+    ) -> (Mesh<'r, B, S>, Unknowns<S>) {
+        let mut parts = vec![least.div_ceil(mesh.elements()); mesh.elements()];
         let from = match unstable {
             Some(outcome) => outcome.unknowns.clone(),
-            None => Unknowns::at_rest(&mesh),
+            None => Unknowns::at_rest(mesh),
         };
         let mut state = self.buffers.configuration();
         if mesh.configure(&from, &mut state).is_ok() {
-            let needed = needed_parts(&mesh, &state, SAFE);
+            let needed = needed_parts(mesh, &state, SAFE);
             parts.iter_mut().zip(needed).for_each(|(count, needed)| *count = (*count).max(needed.min(64)));
         }
         self.buffers.recycle(state);
@@ -113,7 +184,7 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         if total > MOST_ELEMENTS {
             parts.iter_mut().for_each(|count| *count = (*count * MOST_ELEMENTS / total).max(1));
         }
-        let from = from.prolonged(&mesh, &parts, None);
+        let from = from.prolonged(mesh, &parts, None);
         let mesh = mesh.refined(&parts);
         let from = turned_aside(&mesh, &from);
         (mesh, from)
@@ -128,7 +199,7 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         }
         // a stable state may be close by
         let aside = turned_aside(mesh, &outcome.unknowns);
-        let found = descend(mesh, &aside, self.buffers, &mut self.report.iterations)?;
+        let found = self.descend(mesh, &aside)?;
         let outcome = self.solve(mesh, found).ok()?;
         (!self.stability_of(mesh, &outcome, NEUTRAL_START).is_unstable()).then_some(outcome)
     }
@@ -165,16 +236,40 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         }
     }
 
-    /// The first state of the full load on the path from rest.
+    /// The first state of the full load on the path from rest. Where the path turns back, the state of the largest load is kept.
     fn along_the_path(&mut self, mesh: &mut Mesh<'r, B, S>) -> Option<Unknowns<S>> {
-        let stride = Stride { points: POINTS, factors: [-1.0, 1.0], ..Stride::default() };
+        let stride = Stride {
+            points: POINTS * self.newton.max_iterations,
+            factors: [-1.0, 1.0],
+            iterations: Stride::default().iterations.min(self.newton.max_iterations),
+            tolerance: CLOSE,
+            indices: false,
+            ..Stride::default()
+        };
         let start = Unknowns::at_rest(mesh);
         let mut family = RodFamily { mesh, buffers: self.buffers };
         let traced = trace(&mut family, start, 0.0, &stride, |_| false);
         mesh.load_factor = 1.0;
         let traced = traced.ok()?;
-        let last = traced.points.into_iter().last()?;
-        (traced.end == End::Factor && last.factor == 1.0).then_some(last.state)
+        let last = traced.points.last()?;
+        if traced.end == End::Factor && last.factor == 1.0 {
+            return Some(last.state.clone());
+        }
+        let limits = traced.events.iter().filter(|event| event.kind == EventKind::LimitPoint);
+        let limit = limits.map(|event| &event.point).max_by(|a, b| a.factor.total_cmp(&b.factor))?;
+        if traced.points.iter().any(|point| point.factor > limit.factor + 1e-6) {
+            return None; // it went on
+        }
+        mesh.load_factor = limit.factor;
+        let mut state = self.buffers.configuration();
+        if mesh.configure(&limit.state, &mut state).is_ok() {
+            let last = describe(mesh, &limit.state.strains, &state, None, self.report.clone());
+            self.turned = Some((limit.factor, last));
+        }
+        self.buffers.recycle(state);
+        mesh.load_factor = 1.0;
+        // a little more than the largest load, and the rod leaves for another state
+        self.descend(mesh, &limit.state)
     }
 }
 

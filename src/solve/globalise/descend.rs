@@ -1,21 +1,21 @@
 //! Newton's method on a model of the energy that is kept convex.
 
-use nalgebra::Matrix6;
+use nalgebra::{Matrix6, Vector6};
 
-use super::verdict::softening;
+use super::verdict::{is_conservative, softening};
 use crate::body::Elastic;
 use crate::lie::Strain;
 use crate::solve::equilibrium::Configuration;
 use crate::solve::linear::{Buffers, Step};
 use crate::solve::mesh::Mesh;
-use crate::solve::newton::scale;
+use crate::solve::newton::{relative_residual, scale};
 use crate::solve::report::Iteration;
 use crate::solve::scale::Scale;
 use crate::solve::stability::{Verdict, chain};
 use crate::solve::unknowns::Unknowns;
 
-/// Models of the energy that are looked at, at the most: an iteration looks at one or more.
-const MODELS: usize = 150;
+/// Models of the energy that are looked at, at the most, for each iteration that Newton's method is allowed: an iteration looks at one or more.
+const MODELS: usize = 3;
 
 /// μ where it is raised from nothing.
 const FIRST: f64 = 0.05;
@@ -32,6 +32,9 @@ const CAP: f64 = 0.5;
 /// A full step of the unregularised model smaller than this ends the descent.
 const TOLERANCE: f64 = 1e-6;
 
+/// As [`TOLERANCE`], with a residual no larger, where loads without a potential leave an equilibrium whose model is not convex.
+const SETTLED: f64 = 1e-9;
+
 /// How far the curvatures of a state that would not stay are turned aside, in units of 1/L.
 const ASIDE: f64 = 0.05;
 
@@ -43,6 +46,7 @@ const ASIDE: f64 = 0.05;
 pub(super) fn descend<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     from: &Unknowns<S>,
+    max_iterations: usize,
     buffers: &mut Buffers<S>,
     history: &mut Vec<Iteration>,
 ) -> Option<Unknowns<S>> {
@@ -53,8 +57,9 @@ pub(super) fn descend<B: Elastic, const S: usize>(
     mesh.configure(&unknowns, &mut state).ok()?;
     let mut trial = buffers.configuration();
     let mut mu = 0.0;
-    let mut models = 0;
-    while models < MODELS {
+    let mut models = MODELS * max_iterations;
+    while models > 0 {
+        let residual = relative_residual(&state, &scale(mesh, &state));
         let step = convex_step(mesh, &unknowns, &state, buffers, &mut mu, &mut models)?;
         let mut fraction = if step.rotation > CAP { CAP / step.rotation } else { 1.0 };
         loop {
@@ -69,13 +74,10 @@ pub(super) fn descend<B: Elastic, const S: usize>(
         }
         std::mem::swap(&mut unknowns, &mut buffers.trial);
         std::mem::swap(&mut state, &mut trial);
-        history.push(Iteration {
-            elements: mesh.elements(),
-            residual: f64::NAN,
-            step: fraction * step.size,
-            fraction,
-        });
-        if mu == 0.0 && fraction == 1.0 && step.size < TOLERANCE {
+        let step_taken = fraction * step.size;
+        history.push(Iteration { elements: mesh.elements(), residual, step: step_taken, fraction });
+        let settled = step.size < SETTLED && residual < SETTLED && !is_conservative(mesh, &state);
+        if fraction == 1.0 && (mu == 0.0 && step.size < TOLERANCE || settled) {
             unknowns.wrenches.clear();
             return Some(unknowns);
         }
@@ -96,20 +98,23 @@ fn convex_step<B: Elastic, const S: usize>(
     let scale = scale(mesh, state);
     let soft = softening(mesh, state).is_some();
     let mut model = state.clone();
-    while *models < MODELS {
-        *models += 1;
+    while *models > 0 {
+        *models -= 1;
         // the model in units of its own stiffness
-        let scale = Scale { force: scale.force * (1.0 + *mu), ..scale };
+        let units = Scale { force: scale.force * (1.0 + *mu), ..scale };
         for (modelled, response) in model.response.iter_mut().flatten().zip(state.response.iter().flatten()) {
             let stiff = if soft { convex(&response.tangent) } else { response.tangent };
             modelled.tangent = response.tangent + stiff * *mu;
         }
+        // a base that may move is held back as well: supports alone need not keep the rod from swinging
+        let held_back = Matrix6::from_diagonal(&hold_back(&scale)) * *mu;
+        model.base_load.tangent = state.base_load.tangent - held_back;
         let done = buffers.condense(mesh, unknowns, &model).is_ok() && {
-            let verdict = chain(mesh, &model, &buffers.condensed, &scale).map(|chain| chain.verdict(1e-11));
+            let verdict = chain(mesh, &model, &buffers.condensed, &units).map(|chain| chain.verdict(1e-11));
             matches!(verdict, Some(Verdict::Index { unstable: 0, .. }))
         };
         if done
-            && let Ok(step) = buffers.solve_condensed(mesh, &model, &scale)
+            && let Ok(step) = buffers.solve_condensed(mesh, &model, &units)
             && (step.rotation <= SOFT || *mu > 1e4)
         {
             return Some(step);
@@ -117,6 +122,12 @@ fn convex_step<B: Elastic, const S: usize>(
         *mu = if *mu == 0.0 { FIRST } else { 3.0 * *mu };
     }
     None
+}
+
+/// The stiffness of springs EI/L against rotation and EI/L³ against displacement.
+fn hold_back(scale: &Scale) -> Vector6<f64> {
+    let (moment, force) = (scale.force * scale.length, scale.force / scale.length);
+    Vector6::new(moment, moment, moment, force, force, force)
 }
 
 /// The absolute value of a symmetric stiffness, by its eigenvalues.

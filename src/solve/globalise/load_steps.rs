@@ -13,32 +13,34 @@ const FIRST: f64 = 0.25;
 /// The smallest.
 const LEAST: f64 = 1e-3;
 
-/// Steps at the most.
-const STEPS: usize = 150;
+/// Steps at the most, for each iteration that Newton's method is allowed.
+const STEPS: usize = 3;
 
-/// Iterations of a step.
+/// Iterations of a step, at the most.
 const ITERATIONS: usize = 20;
 
 /// From rest to the full load; every step starts on the secant of the two before. `None` where a step of 1e-3 fails.
 pub(super) fn load_steps<B: Elastic, const S: usize>(
     mesh: &mut Mesh<'_, B, S>,
+    max_iterations: usize,
     buffers: &mut Buffers<S>,
     history: &mut Vec<Iteration>,
 ) -> Option<Unknowns<S>> {
-    let found = steps(mesh, buffers, history);
+    let found = steps(mesh, max_iterations, buffers, history);
     mesh.load_factor = 1.0;
     found
 }
 
 fn steps<B: Elastic, const S: usize>(
     mesh: &mut Mesh<'_, B, S>,
+    max_iterations: usize,
     buffers: &mut Buffers<S>,
     history: &mut Vec<Iteration>,
 ) -> Option<Unknowns<S>> {
     let mut here = (0.0, Unknowns::at_rest(mesh));
     let mut before: Option<(f64, Unknowns<S>)> = None;
     let mut step = FIRST;
-    for _ in 0..STEPS {
+    for _ in 0..STEPS * max_iterations {
         let factor = (here.0 + step).min(1.0);
         mesh.load_factor = factor;
         let start = match &before {
@@ -46,7 +48,7 @@ fn steps<B: Elastic, const S: usize>(
             None => here.1.clone(),
         };
         let mut newton = Newton {
-            max_iterations: ITERATIONS,
+            max_iterations: ITERATIONS.min(max_iterations),
             stop: Stop::Step(1e-6),
             observer: &mut |_| (),
             amplification: 1.0,
