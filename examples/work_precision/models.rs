@@ -129,7 +129,7 @@ pub fn page(run: &Run, page: &mut Page) -> Outcome {
     ));
     page.figure(FIGURE, "Modelling error against the time of a solve, three scenes");
     for scene in scenes() {
-        page.paragraph(&format!("**{}.** Modelling error (estimate), µs of a solve:", scene.title));
+        page.paragraph(&format!("**{}.** Modelling error (estimate), ms of a solve:", scene.title));
         let mut rows = Vec::new();
         for section in SECTIONS {
             let mut cells = vec![section.to_string()];
@@ -150,8 +150,8 @@ pub fn page(run: &Run, page: &mut Page) -> Outcome {
 fn cell(page: &mut Page, key: &str, row: &Row<'_>) -> String {
     let size = |value: f64| if value < FLOOR { "0".to_string() } else { scientific(value) };
     let error = page.key(&format!("{key}.error"), &size(row.number("error")));
-    let us = page.key(&format!("{key}.us"), &digits(row.number("us")));
-    format!("{error} ({}), {us}", size(row.number("estimate")))
+    let ms = page.key(&format!("{key}.ms"), &digits(row.number("us") * 1e-3));
+    format!("{error} ({}), {ms}", size(row.number("estimate")))
 }
 
 fn suggested(run: &Run, page: &mut Page) -> Outcome {
@@ -187,12 +187,12 @@ fn draw(run: &Run, table: &Table) -> Outcome {
     for scene in scenes() {
         let title = scene.title.split(", E").next().unwrap_or_default();
         let title = format!("{title}; against `{}` with all strains", own());
-        let mut chart = Chart::new(&title, "time of a solve, µs", "modelling error").log(true, true);
+        let mut chart = Chart::new(&title, "time of a solve, ms", "modelling error").log(true, true);
         for section in SECTIONS {
             let rows = table.rows().filter(|row| row.is("scene", scene.short) && row.is("section", section));
             let points = rows
                 .filter(|row| row.number("error") > FLOOR)
-                .map(|row| [row.number("us"), row.number("error")]);
+                .map(|row| [row.number("us") * 1e-3, row.number("error")]);
             chart = chart.marks(section, points);
         }
         charts.push(chart);

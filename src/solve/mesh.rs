@@ -65,7 +65,8 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
         Self::at(rod, nodes, Collocation::gauss())
     }
 
-    fn at(rod: &'a Rod<B>, nodes: Vec<f64>, table: Collocation<S>) -> Self {
+    /// With these nodes, from 0 to L, the joints and breakpoints among them.
+    pub(crate) fn at(rod: &'a Rod<B>, nodes: Vec<f64>, table: Collocation<S>) -> Self {
         let joints = rod.joints().iter().enumerate();
         let joints = joints.map(|(j, joint)| (nodes.partition_point(|s| *s < joint.s), j)).collect();
         let base = &rod.base_fixture().support;

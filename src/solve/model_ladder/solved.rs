@@ -3,6 +3,7 @@ use super::suggestion::{LeftOut, ModelError};
 use crate::body::Elastic;
 use crate::lie::Wrench;
 use crate::rod::Rod;
+use crate::rod::collocation::Collocation;
 use crate::solve::equilibrium::Configuration;
 use crate::solve::failure::{Failure, Reason};
 use crate::solve::linear::Buffers;
@@ -37,21 +38,21 @@ pub(super) struct Solved<'r, B> {
 impl<'r, B: Elastic> Solved<'r, B> {
     /// On a mesh whose error is well below the tolerance.
     pub(super) fn to(rod: &'r Rod<B>, tolerance: f64) -> Result<Self, Box<Failure>> {
-        let length = rod.body().length();
+        let (asked, length) = (MESH_SHARE * tolerance, rod.body().length());
         let mut elements = ELEMENTS;
+        let mut solution = Self::solution(rod, elements)?;
         for _ in 1..MESHES {
-            let solution = Self::solution(rod, elements)?;
-            if position_error(&solution, length) <= MESH_SHARE * tolerance {
-                return Self::about(rod, elements, &solution);
+            if position_error(&solution, length) <= asked {
+                break;
             }
             elements *= 2;
+            solution = Self::solution(rod, elements)?;
         }
-        let solution = Self::solution(rod, elements)?;
         let estimated = position_error(&solution, length);
-        if estimated <= MESH_SHARE * tolerance {
-            return Self::about(rod, elements, &solution);
+        if estimated <= asked {
+            return Self::about(rod, &solution);
         }
-        let reason = Reason::Accuracy { asked: MESH_SHARE * tolerance, estimated, elements };
+        let reason = Reason::Accuracy { asked, estimated, elements };
         Err(Box::new(Failure { reason, report: solution.report().clone(), last: Some(solution) }))
     }
 
@@ -59,10 +60,11 @@ impl<'r, B: Elastic> Solved<'r, B> {
         Statics { elements, order: Order::Six, ..Statics::default() }.solve(rod)
     }
 
-    /// The unknowns of the solver, read back from the answer on the same mesh.
-    fn about(rod: &'r Rod<B>, elements: usize, solution: &StaticSolution) -> Result<Self, Box<Failure>> {
-        let coarse = Mesh::<B, STAGES>::uniform(rod, elements.div_ceil(2));
-        let mesh = coarse.refined(&vec![2; coarse.elements()]);
+    /// Mesh and unknowns of the solver, read back from its answer.
+    fn about(rod: &'r Rod<B>, solution: &StaticSolution) -> Result<Self, Box<Failure>> {
+        let mut nodes: Vec<f64> = solution.nodes().iter().map(|node| node.s).collect();
+        nodes.dedup(); // a joint has a node on either side
+        let mesh = Mesh::at(rod, nodes, Collocation::gauss());
         let (stages, _) = solution.stages().as_chunks::<STAGES>();
         let mut unknowns = Unknowns::at_rest(&mesh);
         unknowns.strains = stages.iter().map(|stages| std::array::from_fn(|k| stages[k].strain)).collect();
