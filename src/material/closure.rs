@@ -34,8 +34,8 @@ pub struct SectionalClosure<F>(F);
 
 /// A law from a real closure u(I₁−3, I₂−3, J−1; x, y, s): captures anything, types inferred, and can be boxed.
 ///
-/// It always pays for all four variables (a, b, e, s), and is compiled for every machine and not for the widest registers of this one: some three
-/// times slower than [`isotropic!`](crate::isotropic!), which pays for what is asked (`cargo run --release --example engine_speed`). `ln`,
+/// It always pays for all four variables (a, b, e, s), and is compiled for every machine and not for the widest registers of this one: three to
+/// fifty times slower than [`isotropic!`](crate::isotropic!), by how much the compiler inlines; the macro pays for what is asked (`cargo run --release --example engine_speed`). `ln`,
 /// `powf` and their like need `use hyperrod::num_dual::DualNum;`, since the number is a concrete one.
 ///
 /// ```

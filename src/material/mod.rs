@@ -11,7 +11,7 @@
 //! and in one of three ways: as an implementation of the trait; with the macro of the same name in closure syntax
 //! ([`isotropic!`](crate::isotropic!), [`local!`](crate::local!), [`sectional!`](crate::sectional!)), which expands to the
 //! trait; or as a real closure over one concrete [jet](LocalJet) ([`isotropic`], [`local`], [`sectional`]), quickest to write
-//! and some three times slower to run. All of them are a [`Material`], which is all that a section asks for.
+//! and three to fifty times slower to run. All of them are a [`Material`], which is all that a section asks for.
 //!
 //! The laws at hand, with the moduli at rest of a section that cannot contract:
 //!
