@@ -1,10 +1,12 @@
 //! The ladder itself.
 
 use super::descend::{descend, turned_aside};
+use super::elsewhere::elsewhere;
 use super::family::RodFamily;
 use super::load_steps::load_steps;
 use super::verdict::{
-    NEUTRAL_START, SAFE, is_conservative, is_stable_by_pivots, is_surely_stable, needed_parts, stability,
+    NEUTRAL, NEUTRAL_START, SAFE, is_conservative, is_stable_by_pivots, is_surely_stable, needed_parts,
+    stability,
 };
 use crate::body::Elastic;
 use crate::solve::cascade::Cascade;
@@ -12,7 +14,7 @@ use crate::solve::continuation::{End, EventKind, Stride, trace};
 use crate::solve::describe::describe;
 use crate::solve::failure::{Failure, Reason};
 use crate::solve::mesh::Mesh;
-use crate::solve::newton::Outcome;
+use crate::solve::newton::{Outcome, scale};
 use crate::solve::report::{Rung, Stability};
 use crate::solve::unknowns::Unknowns;
 
@@ -22,11 +24,14 @@ const ELEMENTS: [usize; 3] = [8, 32, 96];
 /// And at the most, if the first mesh is not finer already.
 const MOST_ELEMENTS: usize = 200;
 
-/// On more elements no path is walked again: a search takes seconds there, and paths hardly depend on the mesh.
+/// On more elements the loads are not brought on in steps again, and no other start tried: that takes seconds there, and hardly depends on the mesh.
 const MOST_ON_A_PATH: usize = 64;
 
-/// Points of the path that the last rung may walk for each iteration that Newton's method is allowed.
+/// Points of the path that may be walked, on the first mesh alone, for each iteration that Newton's method is allowed.
 const POINTS: usize = 10;
+
+/// Shapes from which Newton's method is tried at last.
+const SHAPES: u64 = 40;
 
 /// Tolerance of a point on it.
 const CLOSE: f64 = 1e-7;
@@ -106,11 +111,21 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
             }
             let again = before > 0;
             before = mesh.elements();
-            for rung in [Rung::Regularised, Rung::LoadSteps, Rung::ArcLength] {
+            for rung in [Rung::Regularised, Rung::LoadSteps, Rung::ArcLength, Rung::OtherStarts] {
                 let found = match rung {
                     Rung::Regularised => self.descend(&mesh, &from),
-                    _ if again && mesh.elements() > MOST_ON_A_PATH || self.turned.is_some() => continue,
+                    Rung::ArcLength if again => continue,
+                    Rung::LoadSteps if self.turned.is_some() => continue,
+                    Rung::LoadSteps if again && mesh.elements() > MOST_ON_A_PATH => continue,
                     Rung::LoadSteps => self.load_steps(&mut mesh),
+                    Rung::OtherStarts if again || mesh.elements() > MOST_ON_A_PATH => continue,
+                    Rung::OtherStarts => {
+                        self.report.reach(rung);
+                        if let Some(outcome) = self.from_elsewhere(&mesh) {
+                            return Some((mesh, outcome));
+                        }
+                        continue;
+                    }
                     _ => self.along_the_path(&mut mesh),
                 };
                 self.report.reach(rung);
@@ -138,6 +153,11 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         self.tier += 1;
         self.failed = Some(Box::new(failure.clone()));
         self.tier < ELEMENTS.len()
+    }
+
+    /// An equilibrium that may be the answer, from the first shape that leads to one.
+    fn from_elsewhere(&mut self, mesh: &Mesh<'r, B, S>) -> Option<Outcome<S>> {
+        (0..SHAPES).find_map(|number| self.stable(mesh, elsewhere(mesh, number)))
     }
 
     fn load_steps(&mut self, mesh: &mut Mesh<'r, B, S>) -> Option<Unknowns<S>> {
@@ -227,10 +247,19 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         stability
     }
 
+    /// What is neutral in an answer: a mode that costs nothing costs what the error of the wrenches makes of it.
+    pub(in crate::solve) fn neutral_in(&self, mesh: &Mesh<'_, B, S>, outcome: &Outcome<S>) -> f64 {
+        let Some(state) = &outcome.state else { return NEUTRAL };
+        let scale = scale(mesh, state);
+        let largest = state.node_wrench.iter().fold(0.0_f64, |most, w| most.max(scale.wrench_size(w)));
+        let error = self.report.error.relative(mesh.rod.body().length());
+        (10.0 * error * largest).clamp(NEUTRAL, NEUTRAL_START)
+    }
+
     /// Finds the neutral modes of a start, as the turning of a buckled round column about its axis, so that Newton's method leaves them alone.
     pub(in crate::solve) fn hold_neutral_modes(&mut self, mesh: &mut Mesh<'r, B, S>, start: &Unknowns<S>) {
         self.buffers.neutral.clear();
-        if self.neutral > 0 {
+        if self.neutral > 0 || self.careful {
             let mut family = RodFamily { mesh, buffers: self.buffers };
             self.buffers.neutral = family.neutral_modes(start, 1.0, NEUTRAL_START);
         }
