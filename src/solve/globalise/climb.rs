@@ -1,7 +1,6 @@
 //! The ladder itself.
 
 use super::descend::{descend, turned_aside};
-use super::elsewhere::elsewhere;
 use super::family::RodFamily;
 use super::load_steps::load_steps;
 use super::verdict::{
@@ -10,7 +9,6 @@ use super::verdict::{
 };
 use crate::body::Elastic;
 use crate::solve::cascade::Cascade;
-use crate::solve::continuation::{End, EventKind, Stride, trace};
 use crate::solve::describe::describe;
 use crate::solve::failure::{Failure, Reason};
 use crate::solve::mesh::Mesh;
@@ -26,15 +24,6 @@ const MOST_ELEMENTS: usize = 200;
 
 /// On more elements the loads are not brought on in steps again, and no other start tried: that takes seconds there, and hardly depends on the mesh.
 const MOST_ON_A_PATH: usize = 64;
-
-/// Points of the path that may be walked, on the first mesh alone, for each iteration that Newton's method is allowed.
-const POINTS: usize = 10;
-
-/// Shapes from which Newton's method is tried at last.
-const SHAPES: u64 = 40;
-
-/// Tolerance of a point on it.
-const CLOSE: f64 = 1e-7;
 
 type Climbed<'r, B, const S: usize> = Result<(Mesh<'r, B, S>, Outcome<S>), Box<Failure>>;
 
@@ -121,7 +110,7 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
                     Rung::OtherStarts if again || mesh.elements() > MOST_ON_A_PATH => continue,
                     Rung::OtherStarts => {
                         self.report.reach(rung);
-                        if let Some(outcome) = self.from_elsewhere(&mesh) {
+                        if let Some(outcome) = self.other_starts(&mesh) {
                             return Some((mesh, outcome));
                         }
                         continue;
@@ -153,11 +142,6 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         self.tier += 1;
         self.failed = Some(Box::new(failure.clone()));
         self.tier < ELEMENTS.len()
-    }
-
-    /// An equilibrium that may be the answer, from the first shape that leads to one.
-    fn from_elsewhere(&mut self, mesh: &Mesh<'r, B, S>) -> Option<Outcome<S>> {
-        (0..SHAPES).find_map(|number| self.stable(mesh, elsewhere(mesh, number)))
     }
 
     fn load_steps(&mut self, mesh: &mut Mesh<'r, B, S>) -> Option<Unknowns<S>> {
@@ -211,7 +195,7 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
     }
 
     /// The equilibrium next to a state, if it is a stable one, or may be any.
-    fn stable(&mut self, mesh: &Mesh<'r, B, S>, from: Unknowns<S>) -> Option<Outcome<S>> {
+    pub(super) fn stable(&mut self, mesh: &Mesh<'r, B, S>, from: Unknowns<S>) -> Option<Outcome<S>> {
         let outcome = self.solve(mesh, from).ok()?;
         let stability = self.stability_of(mesh, &outcome, NEUTRAL_START);
         if !stability.is_unstable() || self.accept_unstable {
@@ -263,42 +247,6 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
             let mut family = RodFamily { mesh, buffers: self.buffers };
             self.buffers.neutral = family.neutral_modes(start, 1.0, NEUTRAL_START);
         }
-    }
-
-    /// The first state of the full load on the path from rest. Where the path turns back, the state of the largest load is kept.
-    fn along_the_path(&mut self, mesh: &mut Mesh<'r, B, S>) -> Option<Unknowns<S>> {
-        let stride = Stride {
-            points: POINTS * self.newton.max_iterations,
-            factors: [-1.0, 1.0],
-            iterations: Stride::default().iterations.min(self.newton.max_iterations),
-            tolerance: CLOSE,
-            indices: false,
-            ..Stride::default()
-        };
-        let start = Unknowns::at_rest(mesh);
-        let mut family = RodFamily { mesh, buffers: self.buffers };
-        let traced = trace(&mut family, start, 0.0, &stride, |_| false);
-        mesh.load_factor = 1.0;
-        let traced = traced.ok()?;
-        let last = traced.points.last()?;
-        if traced.end == End::Factor && last.factor == 1.0 {
-            return Some(last.state.clone());
-        }
-        let limits = traced.events.iter().filter(|event| event.kind == EventKind::LimitPoint);
-        let limit = limits.map(|event| &event.point).max_by(|a, b| a.factor.total_cmp(&b.factor))?;
-        if traced.points.iter().any(|point| point.factor > limit.factor + 1e-6) {
-            return None; // it went on
-        }
-        mesh.load_factor = limit.factor;
-        let mut state = self.buffers.configuration();
-        if mesh.configure(&limit.state, &mut state).is_ok() {
-            let last = describe(mesh, &limit.state.strains, &state, None, self.report.clone());
-            self.turned = Some((limit.factor, last));
-        }
-        self.buffers.recycle(state);
-        mesh.load_factor = 1.0;
-        // a little more than the largest load, and the rod leaves for another state
-        self.descend(mesh, &limit.state)
     }
 }
 

@@ -7,6 +7,7 @@ mod climb;
 mod descend;
 mod elsewhere;
 mod family;
+mod farther;
 mod load_steps;
 mod verdict;
 
