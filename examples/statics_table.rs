@@ -38,7 +38,7 @@ fn main() -> Outcome {
     for case in cases()? {
         for &accuracy in asked {
             count += 1;
-            // the columns of set C1 stay straight, stable or not
+            // set C1 stays straight, stable or not: with N > c GA (v_1.0 near its tip, v_4.0) a rigid neo-Hookean section would rather tilt
             let statics = Statics { accept_unstable: case.name.starts_with("C1"), ..Statics::to(accuracy) };
             let solution = match statics.solve(&case.rod) {
                 Ok(solution) => solution,

@@ -1,14 +1,13 @@
 //! From a coarse mesh to a fine one: every mesh starts Newton's method with the strain polynomials of the one before.
 
 use super::describe::{describe, failed};
-use super::equilibrium::Configuration;
-use super::estimate::{Defect, Level, difference, first_elements};
+use super::estimate::{Defect, Level, cuts, difference, estimate, first_elements, promised};
 use super::failure::{Failure, Reason};
-use super::globalise::{NEUTRAL, unstable};
+use super::globalise::unstable;
 use super::linear::Buffers;
 use super::mesh::Mesh;
 use super::newton::{Newton, Outcome, Stop};
-use super::report::{ErrorEstimate, Report};
+use super::report::Report;
 use super::rigid;
 use super::solution::StaticSolution;
 use super::unknowns::Unknowns;
@@ -26,12 +25,6 @@ const MAX_ELEMENTS: usize = 20_000;
 /// Meshes on which the estimate does not fall, of which more are no use.
 const MAX_STALLS: usize = 2;
 
-/// The estimate is multiplied by this: the ratio of two defects predicts a gain to a factor of about two.
-const SAFETY: f64 = 2.0;
-
-/// As [`SAFETY`], where the coarser mesh is one element.
-const SAFETY_OF_ONE: f64 = 16.0;
-
 /// An element is cut into at most this many pieces at a time: further the prediction does not reach.
 const MOST_PARTS: f64 = 7.0;
 
@@ -46,6 +39,12 @@ const NEWTON_SHARE: f64 = 0.02;
 
 /// A larger amplification is that of a residual which does not see what the step mends: supports that move a rod at rest.
 const MOST_AMPLIFIED: f64 = 1e3;
+
+/// What a Newton step of size s leaves is of size s²; a residual of more than so many times that is not one it could remove.
+const LEFT: f64 = 100.0;
+
+/// A residual that rounding may leave.
+const ROUNDING_RESIDUAL: f64 = 1e-10;
 
 /// How often a first mesh on which Newton's method fails is made four times finer.
 const FIRST_MESHES: u32 = 3;
@@ -250,9 +249,16 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         mesh: &Mesh<'_, B, S>,
         start: Unknowns<S>,
     ) -> Result<Outcome<S>, Box<Failure>> {
-        let outcome = self.newton.solve(mesh, start, self.buffers, &mut self.report.iterations);
-        self.report.residual = outcome.residual;
+        let from = (!self.buffers.neutral.is_empty()).then(|| start.clone());
+        let mut outcome = self.newton.solve(mesh, start, self.buffers, &mut self.report.iterations);
         self.buffers.neutral.clear();
+        if let Some(from) = from
+            && outcome.residual > LEFT * outcome.last_step.powi(2) + ROUNDING_RESIDUAL
+        {
+            // a mode that was kept out of the steps was not neutral
+            outcome = self.newton.solve(mesh, from, self.buffers, &mut self.report.iterations);
+        }
+        self.report.residual = outcome.residual;
         if outcome.failure.is_some() {
             return Err(failed(mesh, outcome, self.report.clone()));
         }
@@ -278,7 +284,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         outcome: &Outcome<S>,
         ends: Option<&[[Strain; 2]]>,
     ) -> Solved {
-        self.report.stability = self.stability_of(mesh, outcome, NEUTRAL);
+        self.report.stability = self.stability_of(mesh, outcome, self.neutral_in(mesh, outcome));
         if self.report.stability.is_unstable() && !self.accept_unstable {
             return Err(unstable(mesh, outcome, self.report.stability, self));
         }
@@ -303,46 +309,4 @@ fn retried(reason: &Reason) -> bool {
             | Reason::Singular { .. }
             | Reason::NoAdmissibleStep { .. }
     )
-}
-
-/// The error of the finer of two meshes: d = E − E′ and E′ ≈ R E, with the gain R read off the defects, or off the order of the element
-/// where that promises less.
-fn estimate<B: Elastic, const S: usize>(
-    coarse: &Level<'_, B, S>,
-    fine: &Level<'_, B, S>,
-    parts: &[usize],
-    length: f64,
-) -> ErrorEstimate {
-    let states: [Option<&Configuration<S>>; 2] = [coarse.outcome.state.as_ref(), fine.outcome.state.as_ref()];
-    let [Some(a), Some(b)] = states else { return ErrorEstimate::default() };
-    let difference = difference(a, b, parts.iter().copied(), length);
-    let before = coarse.defect.total();
-    let found = if before > 0.0 { fine.defect.total() / before } else { 0.0 };
-    let gain = promised(&coarse.defect.shares, parts, 2 * S).max(found).min(0.5);
-    // a single element has no node inside: the difference at its ends says less
-    let safety = if coarse.mesh.elements() == 1 { SAFETY_OF_ONE } else { SAFETY };
-    difference.scaled(safety * gain / (1.0 - gain))
-}
-
-/// By what factor the error falls where the element holds its order: Σ c k⁻ᵖ / Σ c.
-fn promised(shares: &[f64], parts: &[usize], order: usize) -> f64 {
-    let total: f64 = shares.iter().sum();
-    if total > 0.0 {
-        shares.iter().zip(parts).map(|(share, &k)| share / (k as f64).powi(order as i32)).sum::<f64>() / total
-    } else {
-        0.0
-    }
-}
-
-/// Into how many pieces to cut every element, so that the error falls by `factor` with as few elements as can be.
-///
-/// Minimising Σk under Σ c k⁻ᵖ = factor Σc gives k ∝ c^{1/(p+1)}. Every element is cut: where it is not, the estimate is off.
-fn cuts(shares: &[f64], factor: f64, order: usize, most: f64) -> Vec<usize> {
-    let p = order as f64;
-    let total: f64 = shares.iter().sum();
-    let density: Vec<f64> = shares.iter().map(|c| c.powf(1.0 / (p + 1.0))).collect();
-    let spread: f64 = density.iter().sum();
-    // a fifth of what is needed, so that the estimate of the next mesh is met with room
-    let scale = (spread.max(f64::MIN_POSITIVE) / (0.2 * factor * total).max(f64::MIN_POSITIVE)).powf(1.0 / p);
-    density.iter().map(|d| (scale * d).ceil().clamp(2.0, most) as usize).collect()
 }

@@ -9,6 +9,12 @@ use super::unknowns::StageStrains;
 use crate::body::Elastic;
 use crate::lie::{Strain, Wrench};
 
+/// The estimate is multiplied by this: the ratio of two defects predicts a gain to a factor of about two.
+const SAFETY: f64 = 2.0;
+
+/// As [`SAFETY`], where the coarser mesh is one element.
+const SAFETY_OF_ONE: f64 = 16.0;
+
 /// Where the error of a mesh comes from, element by element.
 ///
 /// The strains are a polynomial whose stages satisfy Ψ(Δξ) = Λ; between them the strong form has a defect. δ, the change that would
@@ -111,4 +117,46 @@ pub(super) struct Level<'a, B, const S: usize> {
     pub(super) mesh: Mesh<'a, B, S>,
     pub(super) outcome: Outcome<S>,
     pub(super) defect: Defect,
+}
+
+/// The error of the finer of two meshes: d = E − E′ and E′ ≈ R E, with the gain R read off the defects, or off the order of the element
+/// where that promises less.
+pub(super) fn estimate<B: Elastic, const S: usize>(
+    coarse: &Level<'_, B, S>,
+    fine: &Level<'_, B, S>,
+    parts: &[usize],
+    length: f64,
+) -> ErrorEstimate {
+    let states: [Option<&Configuration<S>>; 2] = [coarse.outcome.state.as_ref(), fine.outcome.state.as_ref()];
+    let [Some(a), Some(b)] = states else { return ErrorEstimate::default() };
+    let difference = difference(a, b, parts.iter().copied(), length);
+    let before = coarse.defect.total();
+    let found = if before > 0.0 { fine.defect.total() / before } else { 0.0 };
+    let gain = promised(&coarse.defect.shares, parts, 2 * S).max(found).min(0.5);
+    // a single element has no node inside: the difference at its ends says less
+    let safety = if coarse.mesh.elements() == 1 { SAFETY_OF_ONE } else { SAFETY };
+    difference.scaled(safety * gain / (1.0 - gain))
+}
+
+/// By what factor the error falls where the element holds its order: Σ c k⁻ᵖ / Σ c.
+pub(super) fn promised(shares: &[f64], parts: &[usize], order: usize) -> f64 {
+    let total: f64 = shares.iter().sum();
+    if total > 0.0 {
+        shares.iter().zip(parts).map(|(share, &k)| share / (k as f64).powi(order as i32)).sum::<f64>() / total
+    } else {
+        0.0
+    }
+}
+
+/// Into how many pieces to cut every element, so that the error falls by `factor` with as few elements as can be.
+///
+/// Minimising Σk under Σ c k⁻ᵖ = factor Σc gives k ∝ c^{1/(p+1)}. Every element is cut: where it is not, the estimate is off.
+pub(super) fn cuts(shares: &[f64], factor: f64, order: usize, most: f64) -> Vec<usize> {
+    let p = order as f64;
+    let total: f64 = shares.iter().sum();
+    let density: Vec<f64> = shares.iter().map(|c| c.powf(1.0 / (p + 1.0))).collect();
+    let spread: f64 = density.iter().sum();
+    // a fifth of what is needed, so that the estimate of the next mesh is met with room
+    let scale = (spread.max(f64::MIN_POSITIVE) / (0.2 * factor * total).max(f64::MIN_POSITIVE)).powf(1.0 / p);
+    density.iter().map(|d| (scale * d).ceil().clamp(2.0, most) as usize).collect()
 }

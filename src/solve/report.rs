@@ -63,6 +63,8 @@ pub enum Rung {
     LoadSteps,
     /// The path of equilibria from rest, followed by its arc length.
     ArcLength,
+    /// Newton's method from other shapes than the reference: bent, twisted and turned by some radians, always the same ones.
+    OtherStarts,
 }
 
 impl std::fmt::Display for Rung {

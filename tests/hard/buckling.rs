@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use hyperrod::load::DeadWrench;
 use hyperrod::rod::Support;
 use hyperrod::section::Stiffness;
-use hyperrod::solve::{Order, PathEventKind, PathOptions, Rung, Stability};
+use hyperrod::solve::{Order, PathEnd, PathEventKind, PathOptions, Rung, Stability};
 use hyperrod::{Body, Pose, Rod, Statics, Twist};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3, vector};
 
@@ -85,6 +85,32 @@ fn a_column_s_buckling_load_and_its_two_modes() {
     // both sideways, and not the same way
     assert!(tips.iter().all(|tip| tip.z.abs() < 1e-6 * tip.norm()));
     assert!(tips[0].cross(&tips[1]).norm() > 0.1 * tips[0].norm() * tips[1].norm());
+}
+
+#[test]
+fn the_branch_that_leaves_a_column_s_critical_load_is_the_elastica() {
+    let section = Stiffness::diagonal([1.0, 1.5, 1.0, 1e8, 1e8, 1e8]).unwrap();
+    let push = DeadWrench::force(vector![0.0, 0.0, -1.0]).unwrap();
+    let rod = Rod::clamped(Body::new(1.0, section).unwrap(), Pose::identity()).with_tip_load(push);
+    let options = PathOptions { factors: [0.0, 10.0], ..PathOptions::default() };
+    let solver = Statics { order: Order::Six, elements: 16, ..Statics::default() };
+    let branch = solver.trace_buckled(&rod, &options).unwrap().unwrap();
+    let (first, last) = (&branch.points[0], &branch.points[branch.points.len() - 1]);
+    assert_eq!((branch.end.clone(), last.load_factor), (PathEnd::LoadFactor, 10.0));
+    // a pitchfork: √P L = K(k) grows with the square of the way
+    assert!((first.load_factor / (PI * PI / 4.0) - 1.0).abs() < 1e-2, "{}", first.load_factor);
+    for point in &branch.points {
+        let [p, tip] = [point.load_factor, point.solution.tip().pose.position.z];
+        // k as its logarithm; the tip is at 2E/K − 1
+        let log = root(-100.0, -1e-12, |log: f64| complete(log.exp())[0] - p.sqrt());
+        let [k, e] = complete(log.exp());
+        // strains of P/1e8, elements of order 6
+        assert!((tip - (2.0 * e / k - 1.0)).abs() < 1e-6, "{p}: {tip} {}", 2.0 * e / k - 1.0);
+        assert_eq!(point.solution.report().stability, Stability::Index { unstable: 0, neutral: 0 });
+    }
+    // straight up to the critical load, and no branch below it
+    let below = PathOptions { factors: [0.0, 2.0], ..options };
+    assert!(solver.trace_buckled(&rod, &below).unwrap().is_none());
 }
 
 #[test]

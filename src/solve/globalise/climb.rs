@@ -4,15 +4,15 @@ use super::descend::{descend, turned_aside};
 use super::family::RodFamily;
 use super::load_steps::load_steps;
 use super::verdict::{
-    NEUTRAL_START, SAFE, is_conservative, is_stable_by_pivots, is_surely_stable, needed_parts, stability,
+    NEUTRAL, NEUTRAL_START, SAFE, is_conservative, is_stable_by_pivots, is_surely_stable, needed_parts,
+    stability,
 };
 use crate::body::Elastic;
 use crate::solve::cascade::Cascade;
-use crate::solve::continuation::{End, EventKind, Stride, trace};
 use crate::solve::describe::describe;
 use crate::solve::failure::{Failure, Reason};
 use crate::solve::mesh::Mesh;
-use crate::solve::newton::Outcome;
+use crate::solve::newton::{Outcome, scale};
 use crate::solve::report::{Rung, Stability};
 use crate::solve::unknowns::Unknowns;
 
@@ -22,14 +22,8 @@ const ELEMENTS: [usize; 3] = [8, 32, 96];
 /// And at the most, if the first mesh is not finer already.
 const MOST_ELEMENTS: usize = 200;
 
-/// On more elements no path is walked again: a search takes seconds there, and paths hardly depend on the mesh.
+/// On more elements the loads are not brought on in steps again, and no other start tried: that takes seconds there, and hardly depends on the mesh.
 const MOST_ON_A_PATH: usize = 64;
-
-/// Points of the path that the last rung may walk for each iteration that Newton's method is allowed.
-const POINTS: usize = 10;
-
-/// Tolerance of a point on it.
-const CLOSE: f64 = 1e-7;
 
 type Climbed<'r, B, const S: usize> = Result<(Mesh<'r, B, S>, Outcome<S>), Box<Failure>>;
 
@@ -106,11 +100,21 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
             }
             let again = before > 0;
             before = mesh.elements();
-            for rung in [Rung::Regularised, Rung::LoadSteps, Rung::ArcLength] {
+            for rung in [Rung::Regularised, Rung::LoadSteps, Rung::ArcLength, Rung::OtherStarts] {
                 let found = match rung {
                     Rung::Regularised => self.descend(&mesh, &from),
-                    _ if again && mesh.elements() > MOST_ON_A_PATH || self.turned.is_some() => continue,
+                    Rung::ArcLength if again => continue,
+                    Rung::LoadSteps if self.turned.is_some() => continue,
+                    Rung::LoadSteps if again && mesh.elements() > MOST_ON_A_PATH => continue,
                     Rung::LoadSteps => self.load_steps(&mut mesh),
+                    Rung::OtherStarts if again || mesh.elements() > MOST_ON_A_PATH => continue,
+                    Rung::OtherStarts => {
+                        self.report.reach(rung);
+                        if let Some(outcome) = self.other_starts(&mesh) {
+                            return Some((mesh, outcome));
+                        }
+                        continue;
+                    }
                     _ => self.along_the_path(&mut mesh),
                 };
                 self.report.reach(rung);
@@ -191,7 +195,7 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
     }
 
     /// The equilibrium next to a state, if it is a stable one, or may be any.
-    fn stable(&mut self, mesh: &Mesh<'r, B, S>, from: Unknowns<S>) -> Option<Outcome<S>> {
+    pub(super) fn stable(&mut self, mesh: &Mesh<'r, B, S>, from: Unknowns<S>) -> Option<Outcome<S>> {
         let outcome = self.solve(mesh, from).ok()?;
         let stability = self.stability_of(mesh, &outcome, NEUTRAL_START);
         if !stability.is_unstable() || self.accept_unstable {
@@ -227,49 +231,22 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         stability
     }
 
+    /// What is neutral in an answer: a mode that costs nothing costs what the error of the wrenches makes of it.
+    pub(in crate::solve) fn neutral_in(&self, mesh: &Mesh<'_, B, S>, outcome: &Outcome<S>) -> f64 {
+        let Some(state) = &outcome.state else { return NEUTRAL };
+        let scale = scale(mesh, state);
+        let largest = state.node_wrench.iter().fold(0.0_f64, |most, w| most.max(scale.wrench_size(w)));
+        let error = self.report.error.relative(mesh.rod.body().length());
+        (10.0 * error * largest).clamp(NEUTRAL, NEUTRAL_START)
+    }
+
     /// Finds the neutral modes of a start, as the turning of a buckled round column about its axis, so that Newton's method leaves them alone.
     pub(in crate::solve) fn hold_neutral_modes(&mut self, mesh: &mut Mesh<'r, B, S>, start: &Unknowns<S>) {
         self.buffers.neutral.clear();
-        if self.neutral > 0 {
+        if self.neutral > 0 || self.careful {
             let mut family = RodFamily { mesh, buffers: self.buffers };
             self.buffers.neutral = family.neutral_modes(start, 1.0, NEUTRAL_START);
         }
-    }
-
-    /// The first state of the full load on the path from rest. Where the path turns back, the state of the largest load is kept.
-    fn along_the_path(&mut self, mesh: &mut Mesh<'r, B, S>) -> Option<Unknowns<S>> {
-        let stride = Stride {
-            points: POINTS * self.newton.max_iterations,
-            factors: [-1.0, 1.0],
-            iterations: Stride::default().iterations.min(self.newton.max_iterations),
-            tolerance: CLOSE,
-            indices: false,
-            ..Stride::default()
-        };
-        let start = Unknowns::at_rest(mesh);
-        let mut family = RodFamily { mesh, buffers: self.buffers };
-        let traced = trace(&mut family, start, 0.0, &stride, |_| false);
-        mesh.load_factor = 1.0;
-        let traced = traced.ok()?;
-        let last = traced.points.last()?;
-        if traced.end == End::Factor && last.factor == 1.0 {
-            return Some(last.state.clone());
-        }
-        let limits = traced.events.iter().filter(|event| event.kind == EventKind::LimitPoint);
-        let limit = limits.map(|event| &event.point).max_by(|a, b| a.factor.total_cmp(&b.factor))?;
-        if traced.points.iter().any(|point| point.factor > limit.factor + 1e-6) {
-            return None; // it went on
-        }
-        mesh.load_factor = limit.factor;
-        let mut state = self.buffers.configuration();
-        if mesh.configure(&limit.state, &mut state).is_ok() {
-            let last = describe(mesh, &limit.state.strains, &state, None, self.report.clone());
-            self.turned = Some((limit.factor, last));
-        }
-        self.buffers.recycle(state);
-        mesh.load_factor = 1.0;
-        // a little more than the largest load, and the rod leaves for another state
-        self.descend(mesh, &limit.state)
     }
 }
 

@@ -11,7 +11,7 @@ use crate::solve::unknowns::Unknowns;
 
 /// What is neutral in a state that is solved to the accuracy asked for, and in one that is but a start for finer meshes.
 pub(crate) const NEUTRAL: f64 = 1e-6;
-pub(super) const NEUTRAL_START: f64 = 1e-3;
+pub(crate) const NEUTRAL_START: f64 = 1e-3;
 
 /// With more elements than this a mesh is but safe, not resolved.
 const MANY_ELEMENTS: usize = 1500;
