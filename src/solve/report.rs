@@ -74,6 +74,7 @@ impl std::fmt::Display for Rung {
             Self::Regularised => "a regularised Newton's method",
             Self::LoadSteps => "load steps",
             Self::ArcLength => "arc length",
+            Self::OtherStarts => "other starts",
         })
     }
 }
