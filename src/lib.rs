@@ -159,7 +159,7 @@
 //!
 //! | choice | rungs |
 //! |---|---|
-//! | strains | all six; fixed ones by [`Constraint`](body::Constraint): Kirchhoff, planar, any subset, exactly; what that costs against the full rod, whose elements run in lanes, is printed by `cargo run --release --example constrained_speed` |
+//! | strains | all six; fixed ones by [`Constraint`](body::Constraint): Kirchhoff, planar, any subset, exactly; what that costs against the full rod is printed by `cargo run --release --example constrained_speed` |
 //! | section | [`Stiffness`](section::Stiffness): Ψ = K Δξ with numbers you measured; [`Resultants`](section::Resultants): an energy per length in Δξ, such as a [`Ribbon`](section::Ribbon); [`Section`](section::Section): an energy density on a section that stays plane and rigid; [`Composite`](section::Composite): several of them; [`Relaxed`](section::Relaxed): one that contracts, ovalises and warps, by the rungs of [`Warping`](section::Warping) (`cargo run --release --example section_ladder` has their errors) |
 //! | level of the law | [`Isotropic`](material::Isotropic): u(I₁−3, I₂−3, J−1), 2 variables (a² + b² and e); [`Local`](material::Local): u(F), 3; [`Sectional`](material::Sectional): u(Δξ, x, y), 6; one more, s, for Ψ′ on a section that varies. A quadratic law that says it is uniform is integrated once, at rest |
 //! | way to write it | a trait, or [`isotropic!`], [`local!`], [`sectional!`] in closure syntax; [`material::isotropic`] and its siblings: a real closure, which always pays for every variable and misses what the compiler does for a type |

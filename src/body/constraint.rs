@@ -61,6 +61,9 @@ impl Constraint {
     }
 
     /// Stays in the plane of its directors x and z, and bends about y. The reference must lie in that plane for the rod to do so.
+    ///
+    /// Where the loads lie in it too, a solve has three components where one in space has six. Its [stability](crate::solve::Stability) is that in the
+    /// plane: whether it would rather leave it is not asked of a rod that cannot.
     pub const fn planar() -> Self {
         Self::fixing([true, false, true, false, true, false])
     }

@@ -4,7 +4,6 @@ use nalgebra::{Matrix3, Matrix6};
 
 use super::collocation::Collocation;
 use super::magnus::{exponent, exponent_derivative, taylor_data};
-use super::planar;
 use crate::body::Constraint;
 use crate::lie::{Pose, Twist, TwistMap, Wrench, se3, so3::hat};
 use crate::load::LoadWrench;
@@ -31,12 +30,16 @@ impl<D: Scalar, const S: usize> Kinematics<D, S> {
 
     /// The loads of the stages brought to the first node: F_l = Ad_l⁻ᵀ f̄_l.
     pub(crate) fn at_node(&self, stage_loads: &[Wrench<D>; S]) -> [Wrench<D>; S] {
-        std::array::from_fn(|l| self.stage[l].adjoint_inverse().apply_transpose(&stage_loads[l]))
+        let mut loads = *stage_loads;
+        for (load, pose) in loads.iter_mut().zip(&self.stage) {
+            *load = brought_back(pose, load);
+        }
+        loads
     }
 
     /// Λ_i and Λ_k of an element without distributed load.
     pub(crate) fn wrenches_without_load(&self, wrench_at_end: &Wrench<D>) -> (Wrench<D>, [Wrench<D>; S]) {
-        let at_start = carried(&self.end.inverse(), wrench_at_end);
+        let at_start = brought_back(&self.end, wrench_at_end);
         let mut stage = [at_start; S];
         for (wrench, pose) in stage.iter_mut().zip(&self.stage) {
             *wrench = carried(pose, &at_start);
@@ -81,7 +84,7 @@ impl<D: Scalar, const S: usize> Kinematics<D, S> {
         node_loads: &[Wrench<D>; S],
         h: f64,
     ) -> Wrench<D> {
-        let mut wrench = self.end.adjoint_inverse().apply_transpose(wrench_at_end);
+        let mut wrench = brought_back(&self.end, wrench_at_end);
         for l in 0..S {
             wrench += node_loads[l] * D::from(h * table.b[l]);
         }
@@ -96,26 +99,14 @@ impl<D: Scalar, const S: usize> Kinematics<D, S> {
         node_loads: &[Wrench<D>; S],
         h: f64,
     ) -> [Wrench<D>; S] {
-        std::array::from_fn(|k| {
-            let mut wrench = *wrench_at_start;
+        let mut stage = [*wrench_at_start; S];
+        for (k, wrench) in stage.iter_mut().enumerate() {
             for l in 0..S {
-                wrench -= node_loads[l] * D::from(h * table.a[k][l]);
+                *wrench -= node_loads[l] * D::from(h * table.a[k][l]);
             }
-            self.stage[k].adjoint().apply_transpose(&wrench)
-        })
-    }
-}
-
-impl<const S: usize> Kinematics<f64, S> {
-    /// As [`new`](Self::new), in the plane where the constraint keeps the rod there.
-    #[inline(always)]
-    pub(crate) fn constrained(
-        table: &Collocation<S>,
-        xi: &[Twist; S],
-        h: f64,
-        constraint: &Constraint,
-    ) -> Self {
-        if planar::holds(constraint, xi) { planar::kinematics(table, xi, h) } else { Self::new(table, xi, h) }
+            *wrench = carried(&self.stage[k], wrench);
+        }
+        stage
     }
 }
 
@@ -124,6 +115,13 @@ impl<const S: usize> Kinematics<f64, S> {
 fn carried<D: Scalar>(pose: &Pose<D>, wrench: &Wrench<D>) -> Wrench<D> {
     let moment = wrench.moment - pose.position.cross(&wrench.force);
     Wrench::new(pose.rotation.tr_mul(&moment), pose.rotation.tr_mul(&wrench.force))
+}
+
+/// Ad_g⁻ᵀ Λ = (R m + p × R n, R n).
+#[inline(always)]
+fn brought_back<D: Scalar>(pose: &Pose<D>, wrench: &Wrench<D>) -> Wrench<D> {
+    let force = pose.rotation * wrench.force;
+    Wrench::new(pose.rotation * wrench.moment + pose.position.cross(&force), force)
 }
 
 /// Body displacements of stages and end per change of the stage strains: B_kl = dexp₋Ω_k ∂Ω_k/∂ξ_l.
@@ -202,7 +200,7 @@ impl<const S: usize> ElementState<'_, S> {
     }
 }
 
-/// The linearised element about node i, with the stage strains still in it, for any load and any law; see [`Condensed`](super::condense::Condensed)
+/// The linearised element about node i, with the stage strains still in it, for any load and any law; see [`condense`](super::condense)
 /// for the short cut that most take:
 ///
 /// A δξ = −r + P_ζ ζ_i + P_Λ δΛ_i, and ζ_{i+1}, δΛ_{i+1} from ζ_i, δΛ_i and δξ.
@@ -213,14 +211,10 @@ pub(crate) struct Linearisation<const S: usize> {
     pub(crate) from_zeta: [Matrix6<f64>; S],
     pub(crate) from_wrench: [Matrix6<f64>; S],
     pub(crate) residual: [Wrench; S],
-    /// Ad_e⁻¹.
-    pub(crate) end_adjoint: Matrix6<f64>,
     /// B_el.
     pub(crate) end_strain: [Matrix6<f64>; S],
     /// ∂Λ_{i+1}/∂ζ_i at fixed δξ.
     pub(crate) wrench_from_zeta: Matrix6<f64>,
-    /// Ad_eᵀ.
-    pub(crate) wrench_from_wrench: Matrix6<f64>,
     /// ∂Λ_{i+1}/∂ξ_l.
     pub(crate) wrench_from_strain: [Matrix6<f64>; S],
 }
@@ -276,10 +270,8 @@ impl<const S: usize> Linearisation<S> {
             from_zeta,
             from_wrench: transpose,
             residual: std::array::from_fn(|k| state.residual(k)),
-            end_adjoint: state.kinematics.end.adjoint_inverse().to_matrix(),
             end_strain,
             wrench_from_zeta,
-            wrench_from_wrench: end_transpose,
             wrench_from_strain,
         }
     }

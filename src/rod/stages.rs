@@ -1,111 +1,14 @@
 //! Gaussian elimination of the stage strains of one element, with row pivoting.
 
-use nalgebra::{Matrix3, SMatrix};
+use nalgebra::SMatrix;
 
-use super::condense::COLUMNS;
 use super::element::Linearisation;
 
-/// Solves for the curvatures of up to three stages: 3S equations with C right-hand sides, which the solution replaces. `None` if they are
-/// singular.
-#[inline(always)]
-pub(super) fn solve_rows<const S: usize, const C: usize>(
-    matrix: &[[Matrix3<f64>; S]; S],
-    rhs: &mut [SMatrix<f64, 3, C>; S],
-) -> Option<()> {
-    const MAX: usize = 9;
-    let n = 3 * S;
-    let mut left = [[0.0_f64; MAX]; MAX];
-    let mut right = [[0.0_f64; C]; MAX];
-    for k in 0..S {
-        for r in 0..3 {
-            for m in 0..S {
-                for c in 0..3 {
-                    left[3 * k + r][3 * m + c] = matrix[k][m][(r, c)];
-                }
-            }
-            for c in 0..C {
-                right[3 * k + r][c] = rhs[k][(r, c)];
-            }
-        }
-    }
-    for column in 0..n {
-        let mut pivot = column;
-        for row in column + 1..n {
-            if left[row][column].abs() > left[pivot][column].abs() {
-                pivot = row;
-            }
-        }
-        let size = left[pivot][column].abs();
-        if !(size > f64::MIN_POSITIVE && size.is_finite()) {
-            return None;
-        }
-        left.swap(column, pivot);
-        right.swap(column, pivot);
-        let (pivot_left, pivot_right) = (left[column], right[column]);
-        let inverse = 1.0 / pivot_left[column];
-        for row in column + 1..n {
-            let factor = left[row][column] * inverse;
-            for c in column..MAX {
-                left[row][c] -= factor * pivot_left[c];
-            }
-            for c in 0..C {
-                right[row][c] -= factor * pivot_right[c];
-            }
-        }
-    }
-    for row in (0..n).rev() {
-        let inverse = 1.0 / left[row][row];
-        let mut value = right[row];
-        for c in row + 1..n {
-            for j in 0..C {
-                value[j] -= left[row][c] * right[c][j];
-            }
-        }
-        right[row] = value.map(|v| v * inverse);
-    }
-    for k in 0..S {
-        for r in 0..3 {
-            for c in 0..C {
-                rhs[k][(r, c)] = right[3 * k + r][c];
-            }
-        }
-    }
-    Some(())
-}
-
-/// As [`solve_rows`] for the curvatures that are not `fixed`: fewer equations; the others are zero.
-pub(super) fn solve_free_rows<const S: usize, const C: usize>(
-    matrix: &[[Matrix3<f64>; S]; S],
-    rhs: &mut [SMatrix<f64, 3, C>; S],
-    fixed: &[bool; 6],
-) -> Option<()> {
-    const MAX: usize = 9;
-    let mut free = [(0, 0); MAX];
-    let mut n = 0;
-    for k in 0..S {
-        for r in (0..3).filter(|&r| !fixed[r]) {
-            free[n] = (k, r);
-            n += 1;
-        }
-    }
-    let mut rows = [[0.0_f64; MAX + COLUMNS]; MAX];
-    for (row, &(k, r)) in rows.iter_mut().zip(&free[..n]) {
-        for (entry, &(m, c)) in row.iter_mut().zip(&free[..n]) {
-            *entry = matrix[k][m][(r, c)];
-        }
-        for c in 0..C {
-            row[n + c] = rhs[k][(r, c)];
-        }
-    }
-    eliminate(&mut rows[..n], n + C)?;
-    rhs.iter_mut().for_each(|rhs| rhs.fill(0.0));
-    for (row, &(k, r)) in rows.iter().zip(&free[..n]) {
-        for c in 0..C {
-            rhs[k][(r, c)] = row[n + c];
-        }
-    }
-    Some(())
-}
+/// Columns of everything that depends on the element's first node: δΛ_i, then 1, then ζ_i.
+pub(super) const WRENCH: usize = 0;
+pub(super) const ONE: usize = 6;
+pub(super) const ZETA: usize = 7;
+pub(super) const COLUMNS: usize = 13;
 
 /// Solves A X = (P_Λ, −r, P_ζ) for all strains at once that are not fixed, rows scaled by their largest entry.
 pub(super) fn solve_general<const S: usize>(
@@ -128,10 +31,10 @@ pub(super) fn solve_general<const S: usize>(
             *entry = element.stage[k][m][(r, c)];
         }
         for c in 0..6 {
-            row[n + c] = element.from_wrench[k][(r, c)];
-            row[n + 7 + c] = element.from_zeta[k][(r, c)];
+            row[n + WRENCH + c] = element.from_wrench[k][(r, c)];
+            row[n + ZETA + c] = element.from_zeta[k][(r, c)];
         }
-        row[n + 6] = -element.residual[k].to_array()[r];
+        row[n + ONE] = -element.residual[k].to_array()[r];
         let size = row[..n].iter().fold(0.0_f64, |size, v| size.max(v.abs()));
         row.iter_mut().for_each(|v| *v /= size);
     }

@@ -24,8 +24,8 @@ impl<const S: usize> Buffers<S> {
         let mut held = held_joints(mesh, state).peekable();
         let mut links = Vec::with_capacity(mesh.elements());
         let mut place = Vec::with_capacity(mesh.elements());
-        for (i, element) in self.condensed[..mesh.elements()].iter().enumerate() {
-            links.push(scale.transfer(&element.transfer));
+        for i in 0..mesh.elements() {
+            links.push(scale.transfer(&self.condensed.transfer(i)));
             place.push(mesh.node_s(i));
             if let Some((_, j, joint)) = held.next_if(|(node, ..)| *node == i + 1) {
                 let equations = joint_equations(mesh, j, joint);

@@ -12,6 +12,7 @@ use crate::material::{Request, Response};
 use crate::rod::element::{ElementState, Kinematics};
 use crate::rod::joint::Fixture;
 use crate::rod::lanes::{self, ELEMENTS, Twists};
+use crate::rod::planar;
 
 /// Everything that follows from the unknowns.
 #[derive(Clone, Debug)]
@@ -68,6 +69,8 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
         into.node_pose.push(pose);
         // as in the configuration before, which is then overwritten: no need to clear
         into.response.resize(n, [Response::zero(); S]);
+        let loaded = !self.rod.loads().is_empty();
+        into.loads.resize(if loaded { n } else { 0 }, [no_load(); S]);
         for i in 0..n {
             if i % ELEMENTS == 0 {
                 let block = i..n.min(i + ELEMENTS);
@@ -77,8 +80,8 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
                 self.move_block(&unknowns.strains, i, &mut into.kinematics);
             }
             let motion = &into.kinematics[i];
-            if !self.rod.loads().is_empty() {
-                into.loads.push(self.stage_loads(i, &pose, motion)?);
+            if loaded {
+                self.stage_loads(i, &pose, motion, &mut into.loads[i])?;
             }
             pose = pose * motion.end;
             if let Some(j) = self.joint_at(i + 1) {
@@ -95,12 +98,9 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
     /// The kinematics of the elements from `first` on, as many as go into a block.
     fn move_block(&self, strains: &StageStrains<S>, first: usize, into: &mut [Kinematics<f64, S>]) {
         let last = self.elements().min(first + ELEMENTS);
-        let constraint = self.rod.body().constraint();
-        if !constraint.is_none() {
-            for i in first..last {
-                let twists = self.twists(i, &strains[i]);
-                into[i] = Kinematics::constrained(&self.table, &twists, self.h(i), &constraint);
-            }
+        if self.is_planar {
+            let element = |i: usize| (self.h(first + i), self.twists(first + i, &strains[first + i]));
+            planar::kinematics(&self.table, element, &mut into[first..last]);
             return;
         }
         let mut twists = Twists::new();
@@ -135,7 +135,7 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
             }
             let (motion, h, loads) = (&into.kinematics[i], self.h(i), into.loads.get(i));
             if independent {
-                let loads = loads.map(|stage| stage.map(|load| load.wrench));
+                let loads = loads.map(wrenches_of);
                 let start = &into.node_wrench[i];
                 let (stage, end) = motion.wrenches_from_start(&self.table, start, loads.as_ref(), h);
                 (into.stage_wrench[i], into.end_wrench[i]) = (stage, end);
@@ -144,7 +144,7 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
             }
             into.end_wrench[i] = before;
             (into.node_wrench[i], into.stage_wrench[i]) = match loads {
-                Some(loads) => motion.wrenches(&self.table, &before, &loads.map(|l| l.wrench), h),
+                Some(loads) => motion.wrenches(&self.table, &before, &wrenches_of(loads), h),
                 None => motion.wrenches_without_load(&before),
             };
         }
@@ -152,22 +152,34 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
         into.take_reactions(&self.rod.body().constraint());
     }
 
-    fn stage_loads(&self, i: usize, node: &Pose, motion: &Kinematics<f64, S>) -> Result<[LoadWrench; S]> {
-        let mut stage = [no_load(); S];
+    fn stage_loads(
+        &self,
+        i: usize,
+        node: &Pose,
+        motion: &Kinematics<f64, S>,
+        stage: &mut [LoadWrench; S],
+    ) -> Result<()> {
         for k in 0..S {
             let (s, pose) = (self.stage_s(i, k), *node * motion.stage[k]);
-            for load in self.rod.loads() {
-                add_load(&mut stage[k], load.at(self.rod.body(), s, &pose)?, self.load_factor);
+            let (body, total) = (self.rod.body(), &mut stage[k]);
+            match self.rod.loads() {
+                [only] if self.load_factor == 1.0 => *total = only.at(body, s, &pose)?,
+                all => {
+                    *total = no_load();
+                    for load in all {
+                        add_load(total, &load.at(body, s, &pose)?, self.load_factor);
+                    }
+                }
             }
             check_load(&stage[k], "distributed load", s)?;
         }
-        Ok(stage)
+        Ok(())
     }
 
     fn load_on(&self, fixture: &Fixture, name: &'static str, pose: &Pose, s: f64) -> Result<LoadWrench> {
         let mut total = no_load();
         for load in &fixture.loads {
-            add_load(&mut total, load.at(pose)?, self.load_factor);
+            add_load(&mut total, &load.at(pose)?, self.load_factor);
         }
         check_load(&total, name, s)?;
         Ok(total)
@@ -224,6 +236,16 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
     }
 }
 
+/// Without copying the tangents.
+#[inline(always)]
+fn wrenches_of<const S: usize>(loads: &[LoadWrench; S]) -> [Wrench; S] {
+    let mut wrenches = [Wrench::zero(); S];
+    for (wrench, load) in wrenches.iter_mut().zip(loads) {
+        *wrench = load.wrench;
+    }
+    wrenches
+}
+
 fn sum(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     a.zip(b).map(|(a, b)| a + b)
 }
@@ -232,17 +254,21 @@ fn no_load() -> LoadWrench {
     LoadWrench { wrench: Wrench::zero(), tangent: Matrix6::zeros(), potential: Some(0.0) }
 }
 
-fn add_load(total: &mut LoadWrench, load: LoadWrench, factor: f64) {
+fn add_load(total: &mut LoadWrench, load: &LoadWrench, factor: f64) {
     total.wrench += load.wrench * factor;
-    total.tangent += load.tangent * factor;
+    for (total, load) in total.tangent.as_mut_slice().iter_mut().zip(load.tangent.as_slice()) {
+        *total += load * factor;
+    }
     total.potential = sum(total.potential, load.potential.map(|p| p * factor));
 }
 
 fn check_load(load: &LoadWrench, quantity: &'static str, s: f64) -> Result<()> {
-    let size = load.wrench.to_vector().norm() + load.tangent.norm();
-    if size.is_finite() {
+    // without a branch
+    let is_finite = |part: &[f64]| part.iter().fold(true, |all, v| all & (v.abs() < f64::INFINITY));
+    if is_finite(&load.wrench.to_array()) & is_finite(load.tangent.as_slice()) {
         return Ok(());
     }
+    let size = load.wrench.to_vector().norm() + load.tangent.norm();
     Err(Error::InvalidAt { quantity, value: size, requirement: "finite", s })
 }
 
@@ -269,7 +295,6 @@ impl<const S: usize> Configuration<S> {
     fn clear(&mut self) {
         self.node_pose.clear();
         self.defect.clear();
-        self.loads.clear();
         self.joints.clear();
     }
 
@@ -291,11 +316,6 @@ impl<const S: usize> Configuration<S> {
                 }
             }
         }
-    }
-
-    /// r_k = Ψ(Δξ_k) − Λ_k of element i.
-    pub(crate) fn residual(&self, i: usize) -> [Wrench; S] {
-        std::array::from_fn(|k| self.response[i][k].wrench - self.stage_wrench[i][k])
     }
 }
 

@@ -3,17 +3,19 @@
 use nalgebra::Vector6;
 
 use super::chain::Chain;
+use super::dead::{DeadSweep, Size, is_dead};
 use super::equilibrium::Configuration;
 use super::mesh::Mesh;
 use super::scale::Scale;
-use super::sweep::{Sweep, Tip};
+use super::sweep::Sweep;
 use super::unknowns::{StageStrains, Unknowns};
 use crate::body::Elastic;
 use crate::error::{Error, Result};
 use crate::lie::Pose;
 use crate::load::LoadWrench;
-use crate::rod::condense::{Condensed, Transfer};
-use crate::rod::lanes::{self, ELEMENTS, Eliminated, Linearised};
+use crate::rod::condense::{Condensed, Kind, Loads, Transfer};
+use crate::rod::lanes::ELEMENTS;
+use crate::rod::planar;
 
 /// By how much a tangent with neutral modes is made stiffer.
 const STIFFER: f64 = 1e-7;
@@ -42,8 +44,11 @@ pub(crate) struct Increment<const S: usize> {
 
 /// Memory of the solves on meshes of one order, kept from iteration to iteration and from solve to solve.
 pub(crate) struct Buffers<const S: usize> {
-    pub(super) condensed: Vec<Condensed<S>>,
+    pub(super) condensed: Condensed<S>,
+    /// One block of elements, where no more are kept.
+    window: Condensed<S>,
     sweep: Sweep,
+    dead: DeadSweep<S>,
     pub(super) chain: Chain,
     /// The last step.
     pub(super) step: Increment<S>,
@@ -52,26 +57,23 @@ pub(crate) struct Buffers<const S: usize> {
     /// Unknowns of the state being tried.
     pub(crate) trial: Unknowns<S>,
     spare: Vec<Configuration<S>>,
-    /// [`Sweep::least_stiffness`] of the last step.
+    /// [`DeadSweep::least_stiffness`] of the last step, 0 where another solved for it.
     pub(super) least_stiffness: f64,
-    /// Of the block of elements being condensed.
-    linearised: Linearised,
-    eliminated: Eliminated,
 }
 
 impl<const S: usize> Default for Buffers<S> {
     fn default() -> Self {
         Self {
-            condensed: Vec::new(),
+            condensed: Condensed::default(),
+            window: Condensed::default(),
             sweep: Sweep::default(),
+            dead: DeadSweep::default(),
             chain: Chain::default(),
             step: Increment { strains: Vec::new(), nodes: Vec::new(), reactions: Vec::new() },
             neutral: Vec::new(),
             trial: Unknowns::default(),
             spare: Vec::new(),
             least_stiffness: 0.0,
-            linearised: Linearised::new(),
-            eliminated: Eliminated::new(),
         }
     }
 }
@@ -101,6 +103,9 @@ impl<const S: usize> Buffers<S> {
         scale: &Scale,
     ) -> Result<Step> {
         if self.neutral.is_empty() {
+            if let Some(step) = self.dead_step(mesh, unknowns, state, scale)? {
+                return Ok(step);
+            }
             self.condense(mesh, unknowns, state)?;
             return self.solve_condensed(mesh, state, scale);
         }
@@ -145,19 +150,50 @@ impl<const S: usize> Buffers<S> {
     ) -> Result<Step> {
         self.step.reactions.clear();
         self.step.reactions.resize(mesh.rod.joints().len(), Vector6::zeros());
+        self.least_stiffness = 0.0;
         let swept = mesh.is_cantilever() && {
-            let forces_only = state.defect.is_empty() && mesh.rod.joints().is_empty();
-            let alone = mesh.rod.loads().is_empty() && forces_only;
-            let tip = Tip { tangent: &state.tip_load.tangent, alone };
-            let elements = &self.condensed[..mesh.elements()];
-            let nodes = &mut self.step.nodes;
-            self.sweep.solve(elements, &state.node_wrench, &tip, scale, nodes).is_some()
+            let (tip, nodes) = (&state.tip_load.tangent, &mut self.step.nodes);
+            self.sweep.solve(&self.condensed, &state.node_wrench, tip, scale, nodes).is_some()
         };
-        self.least_stiffness = if swept { self.sweep.least_stiffness } else { 0.0 };
         if !swept {
             self.solve_with_pivoting(mesh, state, scale)?;
         }
         self.finish(mesh, scale)
+    }
+
+    /// The step of a cantilever under dead forces alone, with the elements condensed and swept block by block. `None` for another, and where the
+    /// sweep breaks.
+    pub(super) fn dead_step<B: Elastic>(
+        &mut self,
+        mesh: &Mesh<'_, B, S>,
+        unknowns: &Unknowns<S>,
+        state: &Configuration<S>,
+        scale: &Scale,
+    ) -> Result<Option<Step>> {
+        let (n, wrenches, tip) = (mesh.elements(), &state.node_wrench, &state.tip_load.tangent);
+        let bare = mesh.is_cantilever() && mesh.rod.joints().is_empty() && state.defect.is_empty();
+        if !(bare && is_dead(tip, &wrenches[n])) {
+            return Ok(None);
+        }
+        let kind = kind_of_elements(mesh, state);
+        if kind.loads > Loads::Dead {
+            return Ok(None);
+        }
+        self.window.begin(1, &kind);
+        self.dead.begin(&self.window, n, tip);
+        let element = |i: usize| mesh.element(i, &unknowns.strains, state);
+        for first in (0..n).step_by(ELEMENTS).rev() {
+            let block = first..n.min(first + ELEMENTS);
+            self.window
+                .fill(&mesh.table, &kind, 0, block.clone(), element, wrenches)
+                .map_err(|i| Error::Singular { matrix: "tangent of an element", s: mesh.node_s(i) })?;
+            if self.dead.back(&self.window, 0, block, wrenches).is_none() {
+                return Ok(None);
+            }
+        }
+        self.least_stiffness = self.dead.least_stiffness();
+        self.step.reactions.clear();
+        Ok(self.dead.forward(wrenches, kind.plane, scale, &mut self.step))
     }
 
     /// The transfers of the elements, joints without a support taken into the element before them.
@@ -168,77 +204,58 @@ impl<const S: usize> Buffers<S> {
         state: &Configuration<S>,
     ) -> Result<()> {
         let n = mesh.elements();
-        self.condensed.resize_with(n.max(self.condensed.len()), Condensed::empty);
-        let in_lanes = state.loads.is_empty() && mesh.rod.body().constraint().is_none();
+        let kind = kind_of_elements(mesh, state);
+        self.condensed.begin(n, &kind);
+        let element = |i: usize| mesh.element(i, &unknowns.strains, state);
+        for first in (0..n).step_by(ELEMENTS) {
+            let block = first..n.min(first + ELEMENTS);
+            self.condensed
+                .fill(&mesh.table, &kind, first, block, element, &state.node_wrench)
+                .map_err(|i| Error::Singular { matrix: "tangent of an element", s: mesh.node_s(i) })?;
+        }
+        self.condensed.add_defect(state.defect.iter().map(|defect| defect.to_vector()));
         let mut joints = state.joints.iter();
+        if mesh.rod.joints().is_empty() {
+            return Ok(());
+        }
         for i in 0..n {
-            if in_lanes && i % ELEMENTS == 0 {
-                self.condense_block(mesh, unknowns, state, i);
-            }
-            let element = &mut self.condensed[i];
-            let end = &state.kinematics[i].end;
-            if !(in_lanes && element.take(&self.eliminated, i % ELEMENTS, end).is_some()) {
-                element
-                    .fill(&mesh.table, &mesh.element(i, &unknowns.strains, state))
-                    .ok_or_else(|| Error::Singular { matrix: "tangent of an element", s: mesh.node_s(i) })?;
-            }
-            if let Some(defect) = state.defect.get(i) {
-                element.transfer.wrench += defect.to_vector();
-            }
             let Some(j) = mesh.joint_at(i + 1) else { continue };
             let Some(joint) = joints.next() else { continue };
             let fixed = &mesh.rod.joints()[j];
             if fixed.fixture.support.is_free() {
-                pass(&mut element.transfer, &fixed.corner, &joint.load);
+                self.condensed.pass(i, |transfer| pass(transfer, &fixed.corner, &joint.load));
             }
         }
         Ok(())
     }
 
-    /// The elements from `first` on, as many as go into a block.
-    fn condense_block<B: Elastic>(
-        &mut self,
-        mesh: &Mesh<'_, B, S>,
-        unknowns: &Unknowns<S>,
-        state: &Configuration<S>,
-        first: usize,
-    ) {
-        let last = mesh.elements().min(first + ELEMENTS);
-        for i in first..last {
-            let twists = mesh.twists(i, &unknowns.strains[i]);
-            let place = i - first;
-            self.linearised.set(place, (mesh.h(i), &twists), &state.response[i], &state.node_wrench[i]);
-        }
-        lanes::condense(&mesh.table, &self.linearised, last - first, &mut self.eliminated);
-    }
-
     /// The strains from the nodes, and the size of it all.
     fn finish<B: Elastic>(&mut self, mesh: &Mesh<'_, B, S>, scale: &Scale) -> Result<Step> {
-        self.step.strains.clear();
-        let nodes = self.step.nodes.iter().take(mesh.elements());
-        self.step.strains.extend(
-            nodes.zip(&self.condensed).map(|((zeta, wrench), element)| element.strain_step(zeta, wrench)),
-        );
+        let Increment { strains, nodes, .. } = &mut self.step;
+        self.condensed.strain_steps(&nodes[..mesh.elements()], strains);
         self.measured(scale.length)
     }
 
     /// How large the step is.
     fn measured(&self, length: f64) -> Result<Step> {
-        let mut step = Step { size: 0.0, rotation: 0.0 };
-        for (zeta, _) in &self.step.nodes {
-            step.rotation = step.rotation.max(zeta.fixed_rows::<3>(0).norm());
-            step.size = step.size.max(zeta.fixed_rows::<3>(3).norm() / length);
-        }
-        for strain in self.step.strains.iter().flatten() {
-            step.size = step.size.max(strain.linear.norm()).max(strain.angular.norm() * length);
-        }
-        step.size = step.size.max(step.rotation);
-        let mut nodes = self.step.nodes.iter();
-        if !(step.size.is_finite() && nodes.all(|(zeta, wrench)| (zeta + wrench).norm().is_finite())) {
-            return Err(Error::Singular { matrix: "tangent of the rod", s: length });
-        }
-        Ok(step)
+        let mut size = Size::default();
+        self.step.nodes.iter().for_each(|(zeta, wrench)| size.add_node(zeta, wrench));
+        size.add_strains(self.step.strains.as_flattened());
+        size.step(length).ok_or(Error::Singular { matrix: "tangent of the rod", s: length })
     }
+}
+
+/// What the elements of a state have in common.
+pub(super) fn kind_of_elements<B: Elastic, const S: usize>(
+    mesh: &Mesh<'_, B, S>,
+    state: &Configuration<S>,
+) -> Kind {
+    let loads = state.loads.as_flattened();
+    let inside = || planar::carries(&state.node_wrench) && planar::carries(&state.end_wrench);
+    let plane = mesh.is_planar && inside() && loads.iter().all(planar::has);
+    let kinds = loads.iter().map(Loads::of);
+    let loads = kinds.fold(Loads::None, |all, one| if one > all { one } else { all });
+    Kind { constraint: mesh.rod.body().constraint(), plane: plane && loads < Loads::Placed, loads }
 }
 
 /// Takes a corner and a point load into the transfer before them: ζ⁺ = Ad_C⁻¹ ζ⁻, δΛ⁺ = Ad_Cᵀ (δΛ⁻ − D ζ⁻).

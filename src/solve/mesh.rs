@@ -6,6 +6,7 @@ use crate::lie::{Pose, Strain, Twist};
 use crate::rod::Rod;
 use crate::rod::collocation::Collocation;
 use crate::rod::element::Kinematics;
+use crate::rod::planar;
 use crate::rod::support::Support;
 
 /// A mesh of collocation elements on a rod, of lengths that may differ.
@@ -20,6 +21,8 @@ pub(crate) struct Mesh<'a, B, const S: usize> {
     places: Vec<[f64; S]>,
     /// ξ* at the stages.
     reference: Vec<[Twist; S]>,
+    /// Whether the rod lies in its plane at rest, and its constraint keeps its strains there.
+    pub(crate) is_planar: bool,
     /// Where a solve starts.
     pub(crate) start: Start,
     /// The loads are multiplied by this, and the supports have come this part of the way from the start to what they hold.
@@ -68,12 +71,15 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
             joints,
             places: Vec::new(),
             reference: Vec::new(),
+            is_planar: false,
             start,
             load_factor: 1.0,
         };
         mesh.places = (0..mesh.elements()).map(|i| std::array::from_fn(|k| mesh.stage_s(i, k))).collect();
         let twists = |places: &[f64; S]| places.map(|s| rod.body().reference(s).twist);
         mesh.reference = mesh.places.iter().map(twists).collect();
+        mesh.is_planar =
+            planar::keeps(&rod.body().constraint()) && planar::contains(mesh.reference.as_flattened());
         if !mesh.is_cantilever() {
             mesh.start = mesh.placed();
         }
@@ -181,7 +187,11 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
 
     /// ξ = ξ* + Δξ at the stages of element i.
     pub(crate) fn twists(&self, i: usize, strains: &[Strain; S]) -> [Twist; S] {
-        std::array::from_fn(|k| self.reference[i][k] + strains[k])
+        let mut twists = self.reference[i];
+        for (twist, strain) in twists.iter_mut().zip(strains) {
+            *twist = *twist + *strain;
+        }
+        twists
     }
 
     /// The strain polynomial of an element at τ ∈ [0, 1].

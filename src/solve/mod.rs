@@ -7,6 +7,7 @@ mod assembly;
 mod cascade;
 mod chain;
 mod continuation;
+mod dead;
 mod describe;
 pub mod dynamics;
 mod equilibrium;

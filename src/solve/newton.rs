@@ -5,7 +5,7 @@ use super::failure::Reason;
 use super::linear::{Buffers, Step};
 use super::mesh::Mesh;
 use super::report::Iteration;
-use super::scale::Scale;
+use super::scale::{Largest, Scale};
 use super::unknowns::Unknowns;
 use crate::body::Elastic;
 use crate::error::Error;
@@ -82,7 +82,7 @@ pub(crate) struct Outcome<const S: usize> {
     /// How many iterations were made.
     pub(crate) iterations: usize,
     pub(crate) failure: Option<Reason>,
-    /// [`Sweep::least_stiffness`](super::sweep::Sweep) of the last step, 0 where it is not known.
+    /// [`DeadSweep::least_stiffness`](super::dead::DeadSweep) of the last step, 0 where it is not known.
     pub(crate) least_stiffness: f64,
     /// Size of that step.
     pub(crate) last_step: f64,
@@ -183,20 +183,14 @@ pub(crate) fn scale<B: Elastic, const S: usize>(mesh: &Mesh<'_, B, S>, state: &C
 
 /// The largest residual over stages and nodes, relative to the largest wrench there is.
 fn relative_residual<const S: usize>(state: &Configuration<S>, scale: &Scale) -> f64 {
-    let mut residual: f64 = 0.0;
-    let mut wrench: f64 = 0.0;
-    for i in 0..state.response.len() {
-        let r = state.residual(i);
-        for k in 0..S {
-            residual = residual.max(scale.wrench_size(&r[k]));
-            wrench = wrench
-                .max(scale.wrench_size(&state.stage_wrench[i][k]))
-                .max(scale.wrench_size(&state.response[i][k].wrench));
-        }
-        if let Some(defect) = state.defect.get(i) {
-            residual = residual.max(scale.wrench_size(defect));
-        }
+    let (mut residual, mut wrench) = (Largest::default(), Largest::default());
+    for (response, stage) in state.response.as_flattened().iter().zip(state.stage_wrench.as_flattened()) {
+        residual.add(&(response.wrench - *stage));
+        wrench.add(stage);
+        wrench.add(&response.wrench);
     }
+    state.defect.iter().for_each(|defect| residual.add(defect));
+    let (residual, wrench) = (scale.largest(&residual), scale.largest(&wrench));
     if wrench > 0.0 { residual / wrench } else { residual }
 }
 

@@ -11,6 +11,20 @@ pub(crate) struct Scale {
     pub(crate) force: f64,
 }
 
+/// The largest components that wrenches have; one that is no number does not count.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Largest([f64; 6]);
+
+impl Largest {
+    #[inline(always)]
+    pub(crate) fn add(&mut self, wrench: &Wrench) {
+        for (largest, v) in self.0.iter_mut().zip(wrench.to_array()) {
+            let v = v.abs();
+            *largest = if v > *largest { v } else { *largest };
+        }
+    }
+}
+
 impl Scale {
     pub(crate) fn displacement(&self) -> [f64; 6] {
         [1.0, 1.0, 1.0, self.length, self.length, self.length]
@@ -29,6 +43,12 @@ impl Scale {
     pub(crate) fn wrench_size(&self, wrench: &Wrench) -> f64 {
         let (moment, force) = (wrench.moment.amax(), wrench.force.amax());
         f64::max(moment / (self.force * self.length), force / self.force)
+    }
+
+    /// The size of the largest of some wrenches in these units.
+    pub(crate) fn largest(&self, largest: &Largest) -> f64 {
+        let [a, b, c, x, y, z] = largest.0;
+        f64::max(a.max(b).max(c) / (self.force * self.length), x.max(y).max(z) / self.force)
     }
 
     /// The physical displacement and wrench of a node's scaled unknowns.

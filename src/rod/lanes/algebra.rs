@@ -106,6 +106,59 @@ pub(super) fn product<L: Lane, const C: usize>(a: &Matrix<L>, b: &[[L; C]; 3]) -
     c
 }
 
+/// Mᵀ B, column by column of any number.
+#[inline(always)]
+pub(super) fn transpose_product<L: Lane, const C: usize>(a: &Matrix<L>, b: &[[L; C]; 3]) -> [[L; C]; 3] {
+    let mut c = [[L::splat(0.0); C]; 3];
+    for r in 0..3 {
+        for j in 0..C {
+            c[r][j] = a[2][r].mul_add(b[2][j], a[1][r].mul_add(b[1][j], a[0][r] * b[0][j]));
+        }
+    }
+    c
+}
+
+/// M Bᵀ.
+#[inline(always)]
+pub(super) fn product_transpose<L: Lane>(a: &Matrix<L>, b: &Matrix<L>) -> Matrix<L> {
+    let mut c = zeros();
+    for r in 0..3 {
+        for j in 0..3 {
+            c[r][j] = dot(&a[r], &b[j]);
+        }
+    }
+    c
+}
+
+/// M + k v^.
+#[inline(always)]
+pub(super) fn add_hat<L: Lane>(m: &Matrix<L>, k: L, v: &Vector<L>) -> Matrix<L> {
+    let [x, y, z] = scale(k, v);
+    let mut sum = *m;
+    sum[0][1] = sum[0][1] - z;
+    sum[0][2] = sum[0][2] + y;
+    sum[1][0] = sum[1][0] + z;
+    sum[1][2] = sum[1][2] - x;
+    sum[2][0] = sum[2][0] - y;
+    sum[2][1] = sum[2][1] + x;
+    sum
+}
+
+/// M + k N, column by column of any number.
+#[inline(always)]
+pub(super) fn add_multiple<L: Lane, const C: usize>(
+    mut m: [[L; C]; 3],
+    k: L,
+    n: &[[L; C]; 3],
+) -> [[L; C]; 3] {
+    for r in 0..3 {
+        for j in 0..C {
+            m[r][j] = k.mul_add(n[r][j], m[r][j]);
+        }
+    }
+    m
+}
+
 /// v × every column.
 #[inline(always)]
 pub(super) fn cross_columns<L: Lane, const C: usize>(v: &Vector<L>, m: &[[L; C]; 3]) -> [[L; C]; 3] {
@@ -176,15 +229,8 @@ impl<L: Lane> Map<L> {
     #[inline(always)]
     pub(super) fn add_ad(&mut self, k: f64, a: &Pair<L>) {
         let k = L::splat(k);
-        for (m, v) in [(&mut self.diagonal, &a.first), (&mut self.lower, &a.second)] {
-            let [x, y, z] = scale(k, v);
-            m[0][1] = m[0][1] - z;
-            m[0][2] = m[0][2] + y;
-            m[1][0] = m[1][0] + z;
-            m[1][2] = m[1][2] - x;
-            m[2][0] = m[2][0] - y;
-            m[2][1] = m[2][1] + x;
-        }
+        self.diagonal = add_hat(&self.diagonal, k, &a.first);
+        self.lower = add_hat(&self.lower, k, &a.second);
     }
 
     /// ad_a ad_b.

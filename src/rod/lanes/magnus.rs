@@ -1,7 +1,9 @@
 //! The Magnus vector, its exponential and its derivative, as in [`rod::magnus`](crate::rod::magnus) and [`lie::se3`](crate::lie::se3), on lanes.
 
-use super::algebra::{Map, Matrix, Pair, Vector, add, add_scaled, cross, dot, from_parts, scale, zeros};
-use super::rows::load_pair;
+use super::algebra::{
+    Map, Matrix, Pair, Vector, add, add_scaled, cross, dot, from_parts, scale, transpose_times, zeros,
+};
+use super::rows::{Row, load_pair};
 use super::{STAGES, Taylor, Twists};
 use crate::lie::{C5, C6, SERIES_LIMIT};
 use crate::scalar::Lane;
@@ -11,6 +13,42 @@ use crate::scalar::Lane;
 pub(super) struct Placed<L> {
     pub(super) rotation: Matrix<L>,
     pub(super) position: Vector<L>,
+}
+
+impl<L: Lane> Placed<L> {
+    /// From rotation by rows, then position.
+    #[inline(always)]
+    pub(super) fn load(rows: &[Row; 12], at: usize) -> Self {
+        let mut pose = Self { rotation: zeros(), position: [L::splat(0.0); 3] };
+        for r in 0..3 {
+            for j in 0..3 {
+                pose.rotation[r][j] = L::load(&rows[3 * r + j][at..]);
+            }
+            pose.position[r] = L::load(&rows[9 + r][at..]);
+        }
+        pose
+    }
+
+    #[inline(always)]
+    pub(super) fn store(&self, rows: &mut [Row; 12], at: usize) {
+        for r in 0..3 {
+            for j in 0..3 {
+                self.rotation[r][j].store(&mut rows[3 * r + j][at..]);
+            }
+            self.position[r].store(&mut rows[9 + r][at..]);
+        }
+    }
+
+    /// Ad_gᵀ Λ = (Rᵀ(m − p × n), Rᵀ n).
+    #[inline(always)]
+    pub(super) fn carry(&self, wrench: &Pair<L>) -> Pair<L> {
+        let lever = cross(&self.position, &wrench.second);
+        let moment = add_scaled(&wrench.first, L::splat(-1.0), &lever);
+        Pair {
+            first: transpose_times(&self.rotation, &moment),
+            second: transpose_times(&self.rotation, &wrench.second),
+        }
+    }
 }
 
 /// α_{j+1} = h Σ_l t_jl ξ_l; what is beyond the number of stages is zero.
@@ -87,7 +125,7 @@ pub(super) fn exponent_derivative<L: Lane>(alpha: &[Pair<L>; STAGES], stages: us
 
 /// c₀ … c₅ by their series; where that does not hold, `suspect` is set.
 #[inline(always)]
-pub(super) fn stumpff<L: Lane>(x: L, suspect: &mut L) -> [L; 6] {
+pub(crate) fn stumpff<L: Lane>(x: L, suspect: &mut L) -> [L; 6] {
     *suspect = x.select_lt(L::splat(SERIES_LIMIT), *suspect, L::splat(1.0));
     let (c5, c6) = (x.polynomial(&C5), x.polynomial(&C6));
     let c4 = L::splat(1.0 / 24.0) - x * c6;

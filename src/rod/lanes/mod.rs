@@ -1,12 +1,15 @@
-//! Elements without distributed loads, eight at a time, a lane an element: [`element`](super::element) and [`condense`](super::condense) once more
-//! for the registers of the machine.
+//! Elements eight at a time, a lane an element: [`element`](super::element) once more for the registers of the machine, with whatever strains fixed, and
+//! with distributed loads that do not depend on where they act.
 //!
 //! What a lane computes does not depend on what stands in the others, nor on how many are in use: results are the same to the bit however
 //! elements are grouped. Where a lane's elimination would have needed pivoting it says so, and the element is done alone.
 
 mod algebra;
+mod answer;
 mod condense;
 mod eliminate;
+mod linearised;
+mod loads;
 mod magnus;
 mod motion;
 mod rows;
@@ -15,109 +18,59 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::collocation::Collocation;
 use super::element::Kinematics;
-use crate::lie::{Pose, Twist, Wrench};
-use crate::material::Response;
+use crate::lie::{Pose, Twist};
+use crate::scalar::Kernel;
 use crate::scalar::lane::{dispatch, dispatch_few};
 use condense::Scratch;
 use motion::Motions;
-use rows::{BlockRows, COLUMNS, NO_BLOCK, NOTHING, Row};
+use rows::{BlockRows, NO_BLOCK};
 
-pub(crate) use rows::ELEMENTS;
+pub(super) use answer::answer;
+pub(super) use eliminate::{LEAST_DETERMINANT, LEAST_STIFFNESS};
+pub(crate) use linearised::{Linearised, Twists};
+pub(super) use magnus::stumpff;
+pub(crate) use rows::{ELEMENTS, NOTHING, Row};
 
 /// Stages of the element of the highest order.
-const STAGES: usize = 3;
+pub(super) const STAGES: usize = 3;
 
 /// So many elements go into registers of half the width.
 const FEW: usize = 4;
 
 /// [`Collocation::taylor`], zero beyond the number of stages.
-type Taylor = [[f64; STAGES]; STAGES];
+pub(super) type Taylor = [[f64; STAGES]; STAGES];
 
-/// The number of stages, and the Taylor data of these and, after them, of the end.
+/// The number of stages, the Taylor data of these and, after them, of the end, and the weights a_kl and b_l.
 ///
 /// It is not in the type, so that kernels are compiled once, and short enough for the instruction cache.
-struct Table {
-    stages: usize,
-    taylor: [Taylor; STAGES + 1],
+pub(super) struct Table {
+    pub(super) stages: usize,
+    pub(super) taylor: [Taylor; STAGES + 1],
+    pub(super) a: [[f64; STAGES]; STAGES],
+    pub(super) b: [f64; STAGES],
 }
 
 impl Table {
-    fn of<const S: usize>(table: &Collocation<S>) -> Self {
+    pub(super) fn of<const S: usize>(table: &Collocation<S>) -> Self {
         let mut taylor = [[[0.0; STAGES]; STAGES]; STAGES + 1];
         for (into, from) in taylor.iter_mut().zip(table.stage.iter().chain([&table.end])) {
             for (into, from) in into.iter_mut().zip(from) {
                 into[..S].copy_from_slice(from);
             }
         }
-        Self { stages: S, taylor }
+        let (mut a, mut b) = ([[0.0; STAGES]; STAGES], [0.0; STAGES]);
+        b[..S].copy_from_slice(&table.b);
+        for (into, from) in a.iter_mut().zip(&table.a) {
+            into[..S].copy_from_slice(from);
+        }
+        Self { stages: S, taylor, a, b }
     }
 }
 
-/// Lengths and strain twists of the elements of a block.
-#[derive(Clone)]
-pub(crate) struct Twists {
-    h: Row,
-    xi: [[Row; 6]; STAGES],
-}
-
-impl Twists {
-    pub(crate) fn new() -> Self {
-        Self { h: [1.0; ELEMENTS], xi: [[NOTHING; 6]; STAGES] }
-    }
-
-    pub(crate) fn set<const S: usize>(&mut self, i: usize, h: f64, xi: &[Twist; S]) {
-        self.h[i] = h;
-        for (rows, xi) in self.xi.iter_mut().zip(xi) {
-            for (row, value) in rows.iter_mut().zip(xi.to_array()) {
-                row[i] = value;
-            }
-        }
-    }
-}
-
-/// What is linearised: an element is done with its twists, its internal wrenches and tangents, and the wrench at its start.
-#[derive(Clone)]
-pub(crate) struct Linearised {
-    pub(crate) twists: Twists,
-    internal: [[Row; 6]; STAGES],
-    tangent: [[Row; 21]; STAGES],
-    wrench_at_start: [Row; 6],
-}
-
-impl Linearised {
-    pub(crate) fn new() -> Self {
-        Self {
-            twists: Twists::new(),
-            internal: [[NOTHING; 6]; STAGES],
-            tangent: [[NOTHING; 21]; STAGES],
-            wrench_at_start: [NOTHING; 6],
-        }
-    }
-
-    /// Puts an element into place i.
-    pub(crate) fn set<const S: usize>(
-        &mut self,
-        i: usize,
-        (h, xi): (f64, &[Twist; S]),
-        response: &[Response; S],
-        wrench_at_start: &Wrench,
-    ) {
-        self.twists.set(i, h, xi);
-        for (k, response) in response.iter().enumerate() {
-            for (row, value) in self.internal[k].iter_mut().zip(response.wrench.to_array()) {
-                row[i] = value;
-            }
-            let tangent = response.tangent.as_slice();
-            for r in 0..6 {
-                for c in 0..=r {
-                    self.tangent[k][packed(r, c)][i] = tangent[6 * c + r];
-                }
-            }
-        }
-        for (row, value) in self.wrench_at_start.iter_mut().zip(wrench_at_start.to_array()) {
-            row[i] = value;
-        }
-    }
+/// Runs a kernel on registers as wide as so many elements have use for.
+#[inline(always)]
+pub(super) fn run<K: Kernel>(kernel: K, count: usize) -> K::Output {
+    if count > FEW { dispatch(kernel) } else { dispatch_few(kernel) }
 }
 
 /// Where entry (r, c ≤ r) of a symmetric matrix is kept.
@@ -129,12 +82,14 @@ const fn packed(r: usize, c: usize) -> usize {
 /// Elements with their strains eliminated.
 #[derive(Clone)]
 pub(crate) struct Eliminated {
-    /// (δω, δν) of every stage.
-    strain: [[BlockRows; 2]; STAGES],
-    /// What of (ζ_{i+1}, δΛ_{i+1}) the strains make.
-    end: [BlockRows; 4],
+    /// (δω, δν) of every stage; δν is not written where it is fixed.
+    pub(super) strain: [[BlockRows; 2]; STAGES],
+    /// What strains and loads make of (ζ_{i+1}, δΛ_{i+1}).
+    pub(super) end: [BlockRows; 4],
+    /// Of the end: rotation by rows, then position.
+    pub(super) pose: [Row; 12],
     /// Not 0 where the elimination cannot be trusted.
-    suspect: Row,
+    pub(super) suspect: Row,
     scratch: Scratch,
 }
 
@@ -143,36 +98,10 @@ impl Eliminated {
         Self {
             strain: [[NO_BLOCK; 2]; STAGES],
             end: [NO_BLOCK; 4],
+            pose: [NOTHING; 12],
             suspect: NOTHING,
             scratch: Scratch::new(),
         }
-    }
-
-    /// Whether the elimination of element i can be trusted.
-    pub(super) fn is_sound(&self, i: usize) -> bool {
-        self.suspect[i] == 0.0
-    }
-
-    /// Copies the columns (δΛ_i, 1) of δξ_k, six rows each.
-    pub(super) fn strain(&self, i: usize, k: usize, into: &mut [f64]) {
-        for (c, into) in into.chunks_exact_mut(6).enumerate().take(COLUMNS) {
-            for r in 0..3 {
-                into[r] = self.strain[k][0][r][c][i];
-                into[3 + r] = self.strain[k][1][r][c][i];
-            }
-        }
-    }
-
-    /// Column c of (ζ_{i+1}, δΛ_{i+1}), as the strains make it.
-    #[inline(always)]
-    pub(super) fn end(&self, i: usize, c: usize) -> [f64; 12] {
-        let mut column = [0.0; 12];
-        for (into, rows) in column.chunks_exact_mut(3).zip(&self.end) {
-            for (into, row) in into.iter_mut().zip(rows) {
-                *into = row[c][i];
-            }
-        }
-        column
     }
 }
 
@@ -216,17 +145,12 @@ pub(crate) fn condense<const S: usize>(
 
 #[inline(never)]
 fn move_block(table: &Table, twists: &Twists, count: usize, out: &mut Motions) {
-    let kernel = motion::Move { table, twists, count, out };
-    if count > FEW { dispatch(kernel) } else { dispatch_few(kernel) }
+    run(motion::Move { table, twists, count, out }, count);
 }
 
 #[inline(never)]
 fn condense_block(table: &Table, state: &Linearised, count: usize, out: &mut Eliminated) {
-    let Eliminated { strain, end, suspect, scratch } = out;
-    let out = condense::Out { strain, end, suspect };
-    let kernel = condense::Condense { table, state, count, scratch, out };
-    if count > FEW { dispatch(kernel) } else { dispatch_few(kernel) }
+    let Eliminated { strain, end, pose, suspect, scratch } = out;
+    let out = condense::Out { strain, end, pose, suspect };
+    run(condense::Condense { table, state, count, scratch, out }, count);
 }
-
-#[cfg(test)]
-mod tests;

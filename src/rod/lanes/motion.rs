@@ -33,14 +33,7 @@ impl Kernel for Move<'_> {
                 let alpha = taylor_data::<L>(&table.taylor[k], twists, table.stages, at);
                 let omega = exponent(&alpha, table.stages);
                 let c = stumpff(dot(&omega.first, &omega.first), &mut suspect);
-                let pose = exp(&omega, &c);
-                let place = &mut out.pose[k];
-                for r in 0..3 {
-                    for j in 0..3 {
-                        pose.rotation[r][j].store(&mut place[3 * r + j][at..]);
-                    }
-                    pose.position[r].store(&mut place[9 + r][at..]);
-                }
+                exp(&omega, &c).store(&mut out.pose[k], at);
             }
             suspect.store(&mut out.suspect[at..]);
         }

@@ -7,9 +7,9 @@ use crate::scalar::Lane;
 pub(crate) const ELEMENTS: usize = 8;
 
 /// One number of every element.
-pub(super) type Row = [f64; ELEMENTS];
+pub(crate) type Row = [f64; ELEMENTS];
 
-pub(super) const NOTHING: Row = [0.0; ELEMENTS];
+pub(crate) const NOTHING: Row = [0.0; ELEMENTS];
 
 /// A 3×3 matrix of every element.
 pub(super) type MatrixRows = [[Row; 3]; 3];
@@ -17,8 +17,11 @@ pub(super) type MatrixRows = [[Row; 3]; 3];
 /// A [`Map`] of every element: diagonal, lower.
 pub(super) type MapRows = [MatrixRows; 2];
 
-/// Columns of everything that depends on the wrench at the start of an element: δΛ_i, then 1.
-pub(super) const COLUMNS: usize = 7;
+/// Columns of everything that depends on the first node of an element: δΛ_i, then 1, then w_i where there are loads.
+pub(super) const COLUMNS: usize = 10;
+
+/// How many of them there are without loads.
+pub(super) const LOADLESS: usize = 7;
 
 /// Three equations, or unknowns, of every element.
 pub(super) type BlockRows = [[Row; COLUMNS]; 3];

@@ -1,194 +1,287 @@
-//! The linearised element in the plane, without distributed loads, with its stage strains eliminated.
+//! The kernel of the condensation in the plane: eight elements linearised and their stage strains eliminated.
 
-use nalgebra::Matrix6;
-
-use super::magnus::Variations;
-use super::{Complex, PLACES, change_of, complex, turned};
+use super::algebra::{Complex, PlaneMap};
+use super::eliminate::{Angular, Linear, System, flexibility};
+use super::magnus::{Placed, vary};
+use super::rows::{Linearised, PlaneWrench, load_wrench, store_pose, store_wrench};
+use crate::body::Constraint;
 use crate::rod::collocation::Collocation;
-use crate::rod::condense::{Condensed, ONE};
-use crate::rod::element::ElementState;
+use crate::rod::lanes::{NOTHING, Row, STAGES, Table, run};
+use crate::scalar::{Kernel, Lane};
 
-/// Columns: δm_y, δn_z, δn_x, 1.
-const COLUMNS: usize = 4;
-type Row = [f64; COLUMNS];
-/// z and x of a column each.
-type ComplexRow = [Complex; COLUMNS];
+/// Columns of everything that depends on an element's first node: δm_y, δn_z, δn_x, then 1, then w_y where there are loads.
+pub(super) const COLUMNS: usize = 5;
 
-/// a real quadratic form on vectors of the plane: rows and columns (z, x).
-type Flexibility = [[f64; 2]; 2];
-
-#[inline(always)]
-fn apply(f: &Flexibility, u: Complex) -> Complex {
-    Complex::new(f[0][0] * u.re + f[0][1] * u.im, f[1][0] * u.re + f[1][1] * u.im)
+/// How many of them there are.
+pub(in crate::rod) fn columns(loaded: bool) -> usize {
+    if loaded { COLUMNS } else { COLUMNS - 1 }
 }
 
-/// K_νν⁻¹ among the strains (ν_z, ν_x) that are free. `None` where it is not clearly definite.
-#[inline(always)]
-fn flexibility(k: &Matrix6<f64>, fixed: &[bool; 6]) -> Option<Flexibility> {
-    /// As for the determinant in space.
-    const LEAST: f64 = 1e-10;
-    let (zz, xx, zx, xz) = (k[(5, 5)], k[(3, 3)], k[(5, 3)], k[(3, 5)]);
-    match (fixed[5], fixed[3]) {
-        (true, true) => Some([[0.0; 2]; 2]),
-        (true, false) => (xx > f64::MIN_POSITIVE).then(|| [[0.0, 0.0], [0.0, 1.0 / xx]]),
-        (false, true) => (zz > f64::MIN_POSITIVE).then(|| [[1.0 / zz, 0.0], [0.0, 0.0]]),
-        (false, false) => {
-            // divided by zz and xx apart, so that 1e150 is still fine
-            let coupling = (zx / zz) * (xz / xx);
-            let determinant = 1.0 - coupling;
-            let definite = zz > f64::MIN_POSITIVE && xx > f64::MIN_POSITIVE && determinant > LEAST;
-            let (z, x) = (1.0 / (zz * determinant), 1.0 / (xx * determinant));
-            definite.then(|| [[z, -z * (zx / xx)], [-x * (xz / zz), x]])
+type Rows = [[Row; COLUMNS]; 3];
+const NO_ROWS: Rows = [[NOTHING; COLUMNS]; 3];
+
+/// Elements with their strains eliminated; components in the order (y; z, x).
+#[derive(Clone)]
+pub(in crate::rod) struct Eliminated {
+    pub(in crate::rod) strain: [Rows; STAGES],
+    /// What the strains make of ζ_{i+1}.
+    pub(in crate::rod) zeta: Rows,
+    /// What strains and loads make of δΛ_{i+1}.
+    pub(in crate::rod) wrench: Rows,
+    pub(in crate::rod) pose: [Row; 4],
+    /// Not 0 where the elimination cannot be trusted.
+    pub(in crate::rod) suspect: Row,
+}
+
+impl Eliminated {
+    pub(in crate::rod) fn new() -> Self {
+        Self {
+            strain: [NO_ROWS; STAGES],
+            zeta: NO_ROWS,
+            wrench: NO_ROWS,
+            pose: [NOTHING; 4],
+            suspect: NOTHING,
         }
     }
 }
 
-impl<const S: usize> Condensed<S> {
-    /// K_k δq_k − L(Λ_k) Σ_l B_kl δq_l = −r_k + Ad_kᵀ δΛ_i with q = (ω_y, ν), where
-    /// L(Λ)(w, v) = (Im(n̄ v), −i n w) and Ad_gᵀ(m, n) = (m − Im(p̄ n), e^{−iθ} n).
-    pub(in crate::rod) fn fill_in_plane(
-        &mut self,
-        table: &Collocation<S>,
-        state: &ElementState<'_, S>,
-    ) -> Option<()> {
-        let variations = Variations::new(table, &state.xi, state.h);
-        let fixed = state.constraint.fixed();
-        let mut soft = [[[0.0; 2]; 2]; S];
-        let mut rhs = [[0.0; COLUMNS]; S];
-        let mut linear_rhs = [[Complex::new(0.0, 0.0); COLUMNS]; S];
-        for k in 0..S {
-            soft[k] = flexibility(&state.response[k].tangent, &fixed)?;
-            let (pose, residual) = (&state.kinematics.stage[k], state.residual(k));
-            let p = complex(&pose.position);
-            // e^{−iθ}
-            let back = Complex::new(pose.rotation[(0, 0)], -pose.rotation[(0, 2)]);
-            rhs[k] = [1.0, p.im, -p.re, -residual.moment.y];
-            linear_rhs[k] = [Complex::new(0.0, 0.0), back, turned(back), -complex(&residual.force)];
-        }
-        let (mut matrix, mut linear_angular) = ([[0.0; S]; S], [[Complex::new(0.0, 0.0); S]; S]);
-        for l in 0..S {
-            let (n, k) = (complex(&state.stage_wrench[l].force), &state.response[l].tangent);
-            for m in 0..S {
-                linear_angular[l][m] = turned(n) * variations.stage[l][m].angular;
-            }
-            linear_angular[l][l] += Complex::new(k[(5, 1)], k[(3, 1)]);
-        }
-        for k in 0..S {
-            let (n, tangent) = (complex(&state.stage_wrench[k].force).conj(), &state.response[k].tangent);
-            for l in 0..S {
-                let map = &variations.stage[k][l];
-                matrix[k][l] -= (n * map.lower).im;
-                // the row of ν_l: −Im(n̄ A ν), and K_ων on the diagonal
-                let along = n * map.diagonal;
-                let mut row = Complex::new(-along.im, -along.re);
-                if k == l {
-                    matrix[k][k] += tangent[(1, 1)];
-                    row += Complex::new(tangent[(1, 5)], tangent[(1, 3)]);
-                }
-                let f = &soft[l];
-                let factor = [row.re * f[0][0] + row.im * f[1][0], row.re * f[0][1] + row.im * f[1][1]];
-                let reduce = |u: Complex| factor[0] * u.re + factor[1] * u.im;
-                for m in 0..S {
-                    matrix[k][m] -= reduce(linear_angular[l][m]);
-                }
-                for c in 0..COLUMNS {
-                    rhs[k][c] -= reduce(linear_rhs[l][c]);
-                }
-            }
-        }
-        solve(&mut matrix, &mut rhs)?;
-        for k in 0..S {
-            for l in 0..S {
-                for c in 0..COLUMNS {
-                    linear_rhs[k][c] -= linear_angular[k][l] * rhs[l][c];
-                }
-            }
-            linear_rhs[k] = linear_rhs[k].map(|u| apply(&soft[k], u));
-        }
-        self.take_from_plane(state, &variations, &rhs, &linear_rhs);
-        Some(())
-    }
+/// Linearises and eliminates the first `count` elements of a block.
+pub(in crate::rod) fn condense<const S: usize>(
+    table: &Collocation<S>,
+    constraint: &Constraint,
+    state: &Linearised,
+    count: usize,
+    out: &mut Eliminated,
+) {
+    let fixed = constraint.fixed();
+    condense_block(&Table::of(table), [fixed[5], fixed[3]], state, count, out);
+}
 
-    /// ζ_{i+1} = Ad_e⁻¹ ζ_i + y_e, δΛ_{i+1} = L(Λ_{i+1}) y_e + Ad_eᵀ δΛ_i, in space again.
+#[inline(never)]
+fn condense_block(table: &Table, fixed: [bool; 2], state: &Linearised, count: usize, out: &mut Eliminated) {
+    run(Condense { table, fixed, state, count, out }, count);
+}
+
+struct Condense<'a> {
+    table: &'a Table,
+    /// Whether ν_z and ν_x are.
+    fixed: [bool; 2],
+    state: &'a Linearised,
+    /// Elements in use.
+    count: usize,
+    out: &'a mut Eliminated,
+}
+
+/// A load by a change of strains: moment and force by δω, and the moment by δν, as a row.
+type ByStrain<L> = (PlaneWrench<L>, Complex<L>);
+
+/// What loads add: δF_l = Σ_m g_lm δq_m + e_l w_i, the loads of the stages brought to node i.
+struct Loads<L> {
+    /// Of δω_m: moment and force; of δν_m: the moment alone, as a row.
+    angular: [[PlaneWrench<L>; STAGES]; STAGES],
+    linear: [[Complex<L>; STAGES]; STAGES],
+    turn: [PlaneWrench<L>; STAGES],
+}
+
+impl Kernel for Condense<'_> {
+    type Output = ();
+
     #[inline(always)]
-    fn take_from_plane(
-        &mut self,
-        state: &ElementState<'_, S>,
-        variations: &Variations<S>,
-        angular: &[Row; S],
-        linear: &[ComplexRow; S],
-    ) {
-        let (mut w, mut v) = ([0.0; COLUMNS], [Complex::new(0.0, 0.0); COLUMNS]);
-        for (l, map) in variations.end.iter().enumerate() {
-            for c in 0..COLUMNS {
-                w[c] += map.angular * angular[l][c];
-                v[c] += map.lower * angular[l][c] + map.diagonal * linear[l][c];
+    fn run<L: Lane>(self) {
+        let Self { table, fixed, state, count, out } = self;
+        let (stages, soft) = (table.stages, fixed != [true; 2]);
+        for at in (0..count).step_by(L::LANES) {
+            let mut suspect = L::splat(0.0);
+            let zero = L::splat(0.0);
+            let none = (zero, Complex::zero());
+            let mut pose = [Placed { turn: Complex::zero(), position: Complex::zero() }; STAGES + 1];
+            let mut variation = [[PlaneMap::zero(); STAGES]; STAGES + 1];
+            for k in 0..=stages {
+                (pose[k], variation[k]) = vary(&table.taylor[k], &state.twists, stages, at, &mut suspect);
             }
-        }
-        self.start_in_plane(state);
-        let t = &mut self.transfer;
-        for c in 0..COLUMNS {
-            let zeta = [0.0, w[c], 0.0, v[c].im, 0.0, v[c].re];
-            let wrench = change_of(state.wrench_at_end, &zeta);
-            if let Some(&place) = PLACES.get(c) {
-                for r in 0..6 {
-                    t.zeta_from_wrench[(r, place)] = zeta[r];
-                    t.wrench_from_wrench[(r, place)] += wrench[r];
+            let start = load_wrench::<L>(&state.wrench_at_start, at);
+            let mut wrench = [none; STAGES + 1];
+            for k in 0..=stages {
+                wrench[k] =
+                    if state.loaded { load_wrench(&state.wrench[k], at) } else { carried(&pose[k], &start) };
+            }
+            let mut system = System::zero();
+            for k in 0..stages {
+                system.flexibility[k] = flexibility(&state.tangent[k], at, fixed, &mut suspect);
+                assemble(&mut system, stages, k, &pose[k], &variation[k], &wrench[k], state, at);
+            }
+            let mut ends = [(none, Complex::zero()); STAGES];
+            let mut end_turn = none;
+            if state.loaded {
+                let loads = Loads::new(stages, &pose, &variation, state, at);
+                let h = L::load(&state.twists.h[at..]);
+                for k in 0..stages {
+                    let (turn, strain) = loads.brought(stages, &table.a[k], h, &pose[k]);
+                    for m in 0..stages {
+                        let ((moment, force), row) = strain[m];
+                        system.angular[k][m] = system.angular[k][m] + moment;
+                        system.to_linear[k][m] = system.to_linear[k][m] + force;
+                        system.from_linear[k][m] = system.from_linear[k][m] + row;
+                    }
+                    system.angular_rhs[k][4] = -turn.0;
+                    system.linear_rhs[k][4] = Complex::zero() - turn.1;
                 }
-            } else {
-                t.zeta = zeta.into();
-                t.wrench = wrench.into();
+                (end_turn, ends) = loads.brought(stages, &table.b, h, &pose[stages]);
             }
+            system.solve(stages, soft, &mut suspect);
+            finish(&system, stages, (&variation[stages], &wrench[stages]), (&end_turn, &ends), at, out);
+            store_pose(&pose[stages], &mut out.pose, at);
+            suspect.store(&mut out.suspect[at..]);
         }
-        self.set_strains::<COLUMNS>(false, |k, c| {
-            let column = PLACES.get(c).copied().unwrap_or(ONE);
-            (column, [0.0, angular[k][c], 0.0, linear[k][c].im, 0.0, linear[k][c].re])
-        });
-    }
-
-    /// ζ_{i+1} = Ad_e⁻¹ ζ_i and δΛ_{i+1} = Ad_eᵀ δΛ_i, to add to.
-    #[inline(always)]
-    pub(super) fn start_in_plane(&mut self, state: &ElementState<'_, S>) {
-        let t = &mut self.transfer;
-        t.zeta_from_zeta = state.kinematics.end.adjoint_inverse().to_matrix();
-        t.wrench_from_wrench = state.kinematics.end.adjoint().to_matrix().transpose();
-        t.zeta_from_wrench.fill(0.0);
-        t.wrench_from_zeta.fill(0.0);
     }
 }
 
-/// Gaussian elimination with row pivoting; the solution is in `rhs`.
+/// Ad_gᵀ(m, n) = (m − Im(p̄ n), e^{−iθ} n).
 #[inline(always)]
-fn solve<const S: usize>(matrix: &mut [[f64; S]; S], rhs: &mut [Row; S]) -> Option<()> {
-    for column in 0..S {
-        let mut pivot = column;
-        for row in column + 1..S {
-            if matrix[row][column].abs() > matrix[pivot][column].abs() {
-                pivot = row;
-            }
-        }
-        let size = matrix[pivot][column].abs();
-        if !(size > f64::MIN_POSITIVE && size.is_finite()) {
-            return None;
-        }
-        matrix.swap(column, pivot);
-        rhs.swap(column, pivot);
-        for row in column + 1..S {
-            let factor = matrix[row][column] / matrix[column][column];
-            for c in column..S {
-                matrix[row][c] -= factor * matrix[column][c];
-            }
-            for c in 0..COLUMNS {
-                rhs[row][c] -= factor * rhs[column][c];
-            }
-        }
+fn carried<L: Lane>(pose: &Placed<L>, (moment, force): &PlaneWrench<L>) -> PlaneWrench<L> {
+    (*moment - pose.position.cross(*force), pose.turn.conj() * *force)
+}
+
+/// Ad_g⁻ᵀ(m, n) = (m + Im(p̄ e^{iθ} n), e^{iθ} n).
+#[inline(always)]
+fn at_node<L: Lane>(pose: &Placed<L>, (moment, force): &PlaneWrench<L>) -> PlaneWrench<L> {
+    let force = pose.turn * *force;
+    (*moment + pose.position.cross(force), force)
+}
+
+/// The row (z, x) of −Im(n̄ A ν).
+#[inline(always)]
+fn minus_cross_row<L: Lane>(force: Complex<L>, diagonal: Complex<L>) -> Complex<L> {
+    let along = force.conj() * diagonal;
+    Complex::new(-along.im, -along.re)
+}
+
+/// K_k δq_k − L(Λ_k) Σ_l B_kl δq_l = −r_k + Ad_kᵀ δΛ_i with q = (ω_y, ν), where L(Λ)(w, v) = (Im(n̄ v), −i n w).
+#[inline(always)]
+#[allow(clippy::too_many_arguments)] // one place, inlined
+fn assemble<L: Lane>(
+    system: &mut System<L>,
+    stages: usize,
+    k: usize,
+    pose: &Placed<L>,
+    variation: &[PlaneMap<L>; STAGES],
+    (moment, force): &PlaneWrench<L>,
+    state: &Linearised,
+    at: usize,
+) {
+    let tangent = &state.tangent[k];
+    let coupling = Complex::new(L::load(&tangent[1][at..]), L::load(&tangent[2][at..]));
+    for l in 0..stages {
+        let map = &variation[l];
+        system.angular[k][l] = -force.cross(map.lower);
+        system.from_linear[k][l] = minus_cross_row(*force, map.diagonal);
+        system.to_linear[k][l] = force.turned().scale(map.angular);
     }
-    for row in (0..S).rev() {
-        let inverse = 1.0 / matrix[row][row];
-        for c in 0..COLUMNS {
-            let known: f64 = (row + 1..S).map(|m| matrix[row][m] * rhs[m][c]).sum();
-            rhs[row][c] = (rhs[row][c] - known) * inverse;
+    system.angular[k][k] = system.angular[k][k] + L::load(&tangent[0][at..]);
+    system.from_linear[k][k] = system.from_linear[k][k] + coupling;
+    system.to_linear[k][k] = system.to_linear[k][k] + coupling;
+    let (zero, one) = (L::splat(0.0), L::splat(1.0));
+    let psi = load_wrench::<L>(&state.internal[k], at);
+    let (p, back) = (pose.position, pose.turn.conj());
+    system.angular_rhs[k] = [one, p.im, -p.re, *moment - psi.0, zero];
+    system.linear_rhs[k] = [Complex::zero(), back, back.turned(), *force - psi.1, Complex::zero()];
+}
+
+impl<L: Lane> Loads<L> {
+    /// g_l = Ad_l⁻ᵀ(D_l − L(f̄_l)) B_l, e_l = Ad_l⁻ᵀ D_l, for loads that do not depend on where they act.
+    #[inline(always)]
+    fn new(
+        stages: usize,
+        pose: &[Placed<L>; STAGES + 1],
+        variation: &[[PlaneMap<L>; STAGES]; STAGES + 1],
+        state: &Linearised,
+        at: usize,
+    ) -> Self {
+        let none = (L::splat(0.0), Complex::zero());
+        let mut loads = Self {
+            angular: [[none; STAGES]; STAGES],
+            linear: [[Complex::zero(); STAGES]; STAGES],
+            turn: [none; STAGES],
+        };
+        for l in 0..stages {
+            let (_, force) = load_wrench::<L>(&state.load[l], at);
+            let slope = load_wrench::<L>(&state.slope[l], at);
+            loads.turn[l] = at_node(&pose[l], &slope);
+            let turned = slope.1 + force.turned();
+            for m in 0..stages {
+                let map = &variation[l][m];
+                let moment = slope.0 * map.angular - force.cross(map.lower);
+                loads.angular[l][m] = at_node(&pose[l], &(moment, turned.scale(map.angular)));
+                loads.linear[l][m] = minus_cross_row(force, map.diagonal);
+            }
         }
+        loads
     }
-    Some(())
+
+    /// Ad_gᵀ h Σ_l weight_l of e_l, and of g_lm for every m.
+    #[inline(always)]
+    fn brought(
+        &self,
+        stages: usize,
+        weights: &[f64; STAGES],
+        h: L,
+        pose: &Placed<L>,
+    ) -> (PlaneWrench<L>, [ByStrain<L>; STAGES]) {
+        let none = (L::splat(0.0), Complex::zero());
+        let (mut turn, mut strain) = (none, [(none, Complex::zero()); STAGES]);
+        for l in 0..stages {
+            let weight = h * L::splat(weights[l]);
+            turn = add_scaled(&turn, weight, &self.turn[l]);
+            for m in 0..stages {
+                strain[m].0 = add_scaled(&strain[m].0, weight, &self.angular[l][m]);
+                strain[m].1 = strain[m].1.add_scaled(weight, self.linear[l][m]);
+            }
+        }
+        for m in 0..stages {
+            strain[m].0 = carried(pose, &strain[m].0);
+        }
+        (carried(pose, &turn), strain)
+    }
+}
+
+#[inline(always)]
+fn add_scaled<L: Lane>(a: &PlaneWrench<L>, k: L, b: &PlaneWrench<L>) -> PlaneWrench<L> {
+    (k.mul_add(b.0, a.0), a.1.add_scaled(k, b.1))
+}
+
+/// y_e and L(Λ_{i+1}) y_e − Ad_eᵀ h Σ b_l δF_l, and the strains themselves.
+#[inline(always)]
+fn finish<L: Lane>(
+    system: &System<L>,
+    stages: usize,
+    (variation, (_, force)): (&[PlaneMap<L>; STAGES], &PlaneWrench<L>),
+    (turn, ends): (&PlaneWrench<L>, &[ByStrain<L>; STAGES]),
+    at: usize,
+    out: &mut Eliminated,
+) {
+    let (angular, linear): (&[Angular<L>; STAGES], &[Linear<L>; STAGES]) =
+        (&system.angular_rhs, &system.linear_rhs);
+    for c in 0..COLUMNS {
+        let (mut w, mut v) = (L::splat(0.0), Complex::zero());
+        let (mut moment, mut pull) = (L::splat(0.0), Complex::zero());
+        if c == 4 {
+            (moment, pull) = (-turn.0, Complex::zero() - turn.1);
+        }
+        for l in 0..stages {
+            let (map, ((m, n), row)) = (&variation[l], &ends[l]);
+            let (omega, nu) = (angular[l][c], linear[l][c]);
+            w = map.angular.mul_add(omega, w);
+            v = v.add_scaled(omega, map.lower) + map.diagonal * nu;
+            moment = moment - *m * omega - row.re * nu.re - row.im * nu.im;
+            pull = pull.add_scaled(-omega, *n);
+            let [y, z, x] = &mut out.strain[l];
+            store_wrench(&(omega, nu), [&mut y[c], &mut z[c], &mut x[c]], at);
+        }
+        moment = moment + force.cross(v);
+        pull = pull.add_scaled(-w, force.turned());
+        let [y, z, x] = &mut out.zeta;
+        store_wrench(&(w, v), [&mut y[c], &mut z[c], &mut x[c]], at);
+        let [y, z, x] = &mut out.wrench;
+        store_wrench(&(moment, pull), [&mut y[c], &mut z[c], &mut x[c]], at);
+    }
 }

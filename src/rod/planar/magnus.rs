@@ -1,140 +1,133 @@
 //! The Magnus vector in the plane, its derivatives, and the poses: [`crate::rod::magnus`] with other numbers.
 
-use nalgebra::{Matrix3, Vector3};
+use super::algebra::{Complex, PlaneMap, PlaneTwist};
+use super::rows::{Twists, load_twist};
+use crate::rod::lanes::{STAGES, Taylor, stumpff};
+use crate::scalar::Lane;
 
-use super::{Complex, PlaneMap, PlaneTwist, complex, turned};
-use crate::lie::{Pose, Twist, stumpff};
-use crate::rod::collocation::Collocation;
-use crate::rod::element::Kinematics;
+/// Rotation by θ, as e^{iθ}, and position.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placed<L> {
+    pub(super) turn: Complex<L>,
+    pub(super) position: Complex<L>,
+}
 
-/// α_{j+1} = h Σ_l t_jl ξ_l.
+/// α_{j+1} = h Σ_l t_jl ξ_l; what is beyond the number of stages is zero.
 #[inline(always)]
-fn taylor_data<const S: usize>(t: &[[f64; S]; S], xi: &[PlaneTwist; S], h: f64) -> [PlaneTwist; S] {
-    let mut alpha = [PlaneTwist::zero(); S];
-    for j in 0..S {
-        for l in 0..S {
-            alpha[j] = alpha[j] + xi[l].scale(h * t[j][l]);
+pub(super) fn taylor_data<L: Lane>(
+    t: &Taylor,
+    twists: &Twists,
+    stages: usize,
+    at: usize,
+) -> [PlaneTwist<L>; STAGES] {
+    let h = L::load(&twists.h[at..]);
+    let mut alpha = [PlaneTwist::zero(); STAGES];
+    for l in 0..stages {
+        let xi = load_twist::<L>(&twists.xi[l], at);
+        for j in 0..STAGES {
+            alpha[j] = alpha[j].add_scaled(h * L::splat(t[j][l]), &xi);
         }
     }
     alpha
 }
 
-/// C₁, P and Q of order 6.
+/// C₁ + 2α₃, P and Q of order 6.
 #[inline(always)]
-fn factors(alpha: &[PlaneTwist]) -> [PlaneTwist; 3] {
+fn factors<L: Lane>(alpha: &[PlaneTwist<L>; STAGES]) -> [PlaneTwist<L>; 3] {
+    let k = L::splat;
     let c1 = alpha[1].bracket(&alpha[0]);
-    let c2 = (alpha[2].scale(2.0) + c1).bracket(&alpha[0]).scale(-1.0 / 60.0);
-    [c1, alpha[1] + c2, c1 - alpha[2] - alpha[0].scale(20.0)]
+    let inner = c1.add_scaled(k(2.0), &alpha[2]);
+    let p = alpha[1].add_scaled(k(-1.0 / 60.0), &inner.bracket(&alpha[0]));
+    let q = c1.add_scaled(k(-1.0), &alpha[2]).add_scaled(k(-20.0), &alpha[0]);
+    [inner, p, q]
 }
 
 /// Ω.
 #[inline(always)]
-fn exponent<const S: usize>(alpha: &[PlaneTwist; S]) -> PlaneTwist {
-    match S {
+pub(super) fn exponent<L: Lane>(alpha: &[PlaneTwist<L>; STAGES], stages: usize) -> PlaneTwist<L> {
+    let k = L::splat;
+    match stages {
         1 => alpha[0],
-        2 => alpha[0] + alpha[0].bracket(&alpha[1]).scale(1.0 / 12.0),
+        2 => alpha[0].add_scaled(k(1.0 / 12.0), &alpha[0].bracket(&alpha[1])),
         _ => {
             let [_, p, q] = factors(alpha);
-            alpha[0] + alpha[2].scale(1.0 / 12.0) + p.bracket(&q).scale(1.0 / 240.0)
+            alpha[0].add_scaled(k(1.0 / 12.0), &alpha[2]).add_scaled(k(1.0 / 240.0), &p.bracket(&q))
         }
     }
 }
 
-/// ∂Ω/∂α_j.
+/// ∂Ω/∂α_j, as many as there are stages.
 #[inline(always)]
-fn exponent_derivative<const S: usize>(alpha: &[PlaneTwist; S]) -> [PlaneMap; S] {
+fn exponent_derivative<L: Lane>(alpha: &[PlaneTwist<L>; STAGES], stages: usize) -> [PlaneMap<L>; STAGES] {
+    const SCALE: f64 = 1.0 / 240.0;
+    let k = L::splat;
     let one = PlaneMap::identity();
-    let mut all = [one; S];
-    match S {
-        1 => {}
-        2 => {
-            all[0] = one - alpha[1].ad().scale(1.0 / 12.0);
-            all[1] = alpha[0].ad().scale(1.0 / 12.0);
-        }
-        _ => {
-            const SCALE: f64 = 1.0 / 240.0;
-            let [c1, p, q] = factors(alpha);
-            let inner = (alpha[2].scale(2.0) + c1).ad();
-            let (a1, a2, p, q) = (alpha[0].ad(), alpha[1].ad(), p.ad(), q.ad());
-            let q1 = q * a1;
-            all[0] = one + (p * a2 - p.scale(20.0)).scale(SCALE) - (q1 * a2 - q * inner).scale(SCALE / 60.0);
-            all[1] = (q1 * a1).scale(SCALE / 60.0) - (p * a1 + q).scale(SCALE);
-            all[2] = one.scale(1.0 / 12.0) - (p + q1.scale(1.0 / 30.0)).scale(SCALE);
-        }
+    let mut maps = [one; STAGES];
+    if stages == 2 {
+        maps[0] = one.add_scaled(k(-1.0 / 12.0), &alpha[1].ad());
+        maps[1] = PlaneMap::zero().add_scaled(k(1.0 / 12.0), &alpha[0].ad());
+    } else if stages > 2 {
+        let [inner, p, q] = factors(alpha);
+        let (a1, a2, p, q) = (alpha[0].ad(), alpha[1].ad(), p.ad(), q.ad());
+        let q1 = q.times(&a1);
+        let zero = PlaneMap::zero();
+        maps[0] = one
+            .add_scaled(k(SCALE), &p.times(&a2))
+            .add_scaled(k(-20.0 * SCALE), &p)
+            .add_scaled(k(-SCALE / 60.0), &q1.times(&a2))
+            .add_scaled(k(SCALE / 60.0), &q.times(&inner.ad()));
+        maps[1] = zero
+            .add_scaled(k(SCALE / 60.0), &q1.times(&a1))
+            .add_scaled(k(-SCALE), &p.times(&a1))
+            .add_scaled(k(-SCALE), &q);
+        maps[2] =
+            zero.add_scaled(k(1.0 / 12.0), &one).add_scaled(k(-SCALE), &p).add_scaled(k(-SCALE / 30.0), &q1);
     }
-    all
+    maps
 }
 
-/// exp of (θ, ν): the rotation by θ and (e^{iθ} − 1)/(iθ) ν.
+/// exp of (θ, ν): the rotation by θ and (e^{iθ} − 1)/(iθ) ν. With c₀ … of θ².
 #[inline(always)]
-fn exp(omega: &PlaneTwist) -> Pose {
+pub(super) fn exp<L: Lane>(omega: &PlaneTwist<L>, c: &[L; 6]) -> Placed<L> {
     let theta = omega.angular;
-    let [c0, c1, c2, ..] = stumpff(theta * theta);
-    let position = Complex::new(c1, theta * c2) * omega.linear;
-    let (cos, sin) = (c0, theta * c1);
-    let rotation = Matrix3::new(cos, 0.0, sin, 0.0, 1.0, 0.0, -sin, 0.0, cos);
-    Pose::new(rotation, Vector3::new(position.im, 0.0, position.re))
+    Placed {
+        turn: Complex::new(c[0], theta * c[1]),
+        position: Complex::new(c[1], theta * c[2]) * omega.linear,
+    }
 }
 
 /// dexp₋Ω = (1, i ν φ₂(−iθ), φ₁(−iθ)), φ₁(z) = (e^z − 1)/z, φ₂(z) = (e^z − 1 − z)/z².
 #[inline(always)]
-fn dexp_of_minus(omega: &PlaneTwist) -> PlaneMap {
-    let theta = omega.angular;
-    let [_, c1, c2, c3, ..] = stumpff(theta * theta);
+fn dexp_minus<L: Lane>(omega: &PlaneTwist<L>, c: &[L; 6]) -> PlaneMap<L> {
+    let back = -omega.angular;
     PlaneMap {
-        angular: 1.0,
-        lower: turned(omega.linear) * Complex::new(c2, -theta * c3),
-        diagonal: Complex::new(c1, -theta * c2),
+        angular: L::splat(1.0),
+        lower: omega.linear.turned() * Complex::new(c[2], back * c[3]),
+        diagonal: Complex::new(c[1], back * c[2]),
     }
 }
 
+/// The pose at a stage or the end, and its displacements B_l = h Σ_j t_jl dexp₋Ω ∂Ω/∂α_j per change of the stage strains.
 #[inline(always)]
-fn in_plane<const S: usize>(xi: &[Twist; S]) -> [PlaneTwist; S] {
-    xi.map(|xi| PlaneTwist { angular: xi.angular.y, linear: complex(&xi.linear) })
-}
-
-/// As [`Kinematics::new`].
-pub(in crate::rod) fn kinematics<const S: usize>(
-    table: &Collocation<S>,
-    xi: &[Twist; S],
-    h: f64,
-) -> Kinematics<f64, S> {
-    let xi = in_plane(xi);
-    let pose = |t: &[[f64; S]; S]| exp(&exponent(&taylor_data(t, &xi, h)));
-    let mut motion = Kinematics { stage: [Pose::identity(); S], end: pose(&table.end) };
-    for k in 0..S {
-        motion.stage[k] = pose(&table.stage[k]);
-    }
-    motion
-}
-
-/// B_kl at the stages, and B_el.
-pub(super) struct Variations<const S: usize> {
-    pub(super) stage: [[PlaneMap; S]; S],
-    pub(super) end: [PlaneMap; S],
-}
-
-impl<const S: usize> Variations<S> {
-    #[inline(always)]
-    pub(super) fn new(table: &Collocation<S>, xi: &[Twist; S], h: f64) -> Self {
-        let xi = in_plane(xi);
-        let row = |t: &[[f64; S]; S]| {
-            let alpha = taylor_data(t, &xi, h);
-            let dexp = dexp_of_minus(&exponent(&alpha));
-            let moved = exponent_derivative(&alpha).map(|map| dexp * map);
-            let mut row = [moved[0]; S];
-            for l in 0..S {
-                row[l] = moved[0].scale(h * t[0][l]);
-                for j in 1..S {
-                    row[l] = row[l] + moved[j].scale(h * t[j][l]);
-                }
-            }
-            row
-        };
-        let mut all = Self { stage: [[PlaneMap::identity(); S]; S], end: row(&table.end) };
-        for k in 0..S {
-            all.stage[k] = row(&table.stage[k]);
+pub(super) fn vary<L: Lane>(
+    t: &Taylor,
+    twists: &Twists,
+    stages: usize,
+    at: usize,
+    suspect: &mut L,
+) -> (Placed<L>, [PlaneMap<L>; STAGES]) {
+    let alpha = taylor_data::<L>(t, twists, stages, at);
+    let omega = exponent(&alpha, stages);
+    let c = stumpff(omega.angular * omega.angular, suspect);
+    let dexp = dexp_minus(&omega, &c);
+    let derivative = exponent_derivative(&alpha, stages);
+    let h = L::load(&twists.h[at..]);
+    let mut row = [PlaneMap::zero(); STAGES];
+    for j in 0..stages {
+        let turned = dexp.times(&derivative[j]);
+        for l in 0..stages {
+            row[l] = row[l].add_scaled(h * L::splat(t[j][l]), &turned);
         }
-        all
     }
+    (exp(&omega, &c), row)
 }

@@ -143,7 +143,7 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
             Some(state) if is_stable_by_pivots(mesh, outcome, state) => {
                 Stability::Index { unstable: 0, neutral: 0 }
             }
-            Some(state) if is_surely_stable(mesh, state, self.buffers, neutral) => {
+            Some(state) if is_surely_stable(mesh, &outcome.unknowns, state, self.buffers, neutral) => {
                 Stability::Index { unstable: 0, neutral: 0 }
             }
             Some(state) => stability(mesh, &outcome.unknowns, state, self.buffers, neutral),

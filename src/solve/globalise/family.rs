@@ -76,9 +76,10 @@ impl<B: Elastic, const S: usize> RodFamily<'_, '_, B, S> {
         };
         let step = |mode: Vec<NodeStep>| {
             let nodes: Vec<NodeStep> = mode.iter().zip(&configuration.node_wrench).map(at_node).collect();
-            let elements = self.buffers.condensed.iter().zip(&nodes).take(self.mesh.elements());
+            let (elements, starts) = (&self.buffers.condensed, nodes.iter().take(self.mesh.elements()));
+            let strains = starts.enumerate();
             let strains =
-                elements.map(|(element, (zeta, wrench))| element.strain_of_node(zeta, wrench)).collect();
+                strains.map(|(i, (zeta, wrench))| elements.strain_of_node(i, zeta, wrench)).collect();
             let reactions = vec![Vector6::zeros(); self.mesh.rod.joints().len()];
             Increment { strains, nodes, reactions }
         };

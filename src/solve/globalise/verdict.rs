@@ -1,3 +1,5 @@
+use nalgebra::Matrix6;
+
 use crate::body::Elastic;
 use crate::solve::equilibrium::Configuration;
 use crate::solve::linear::Buffers;
@@ -39,18 +41,24 @@ pub(super) fn softening<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     state: &Configuration<S>,
 ) -> Option<f64> {
-    let mut definite = None;
+    let mut definite: Option<&Matrix6<f64>> = None;
     for i in 0..mesh.elements() {
         for k in 0..S {
             let tangent = &state.response[i][k].tangent;
             // most laws are linear: what is the same as before needs no second look
-            if definite != Some(tangent) && tangent.cholesky().is_none() {
+            if !definite.is_some_and(|other| is_same(other, tangent)) && tangent.cholesky().is_none() {
                 return Some(mesh.stage_s(i, k));
             }
             definite = Some(tangent);
         }
     }
     None
+}
+
+/// Whether two matrices are equal, entry by entry without a branch.
+#[inline(always)]
+fn is_same(a: &Matrix6<f64>, b: &Matrix6<f64>) -> bool {
+    a.as_slice().iter().zip(b.as_slice()).fold(true, |same, (a, b)| same & (a == b))
 }
 
 /// Whether the pivots of the last Newton step leave no doubt that a state is stable: with room for that step to have changed them, and elements
@@ -94,19 +102,34 @@ fn is_resolved<B: Elastic, const S: usize>(
     })
 }
 
-/// Whether a cantilever that was just solved is surely stable, by the elements as they were condensed in the last step.
+/// Pivots of the last Newton step are surely positive above this, in units of the rod's bending stiffness.
+const PIVOT: f64 = 1e-3;
+
+/// Whether a cantilever that was just solved is surely stable: by the pivots as they were in the last Newton step, or by those of its elements.
 pub(crate) fn is_surely_stable<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
+    unknowns: &Unknowns<S>,
     state: &Configuration<S>,
-    buffers: &Buffers<S>,
+    buffers: &mut Buffers<S>,
     neutral: f64,
 ) -> bool {
     mesh.is_cantilever()
         && is_conservative(mesh, state)
         && softening(mesh, state).is_none()
         && needed_parts(mesh, state, SAFE).iter().all(|&count| count == 1)
-        && chain(mesh, state, &buffers.condensed, &scale(mesh, state))
-            .is_some_and(|c| c.is_surely_stable(10.0 * neutral))
+        && (has_pivots(mesh, state, buffers)
+            || buffers.condense(mesh, unknowns, state).is_ok()
+                && chain(mesh, state, &buffers.condensed, &scale(mesh, state))
+                    .is_some_and(|c| c.is_surely_stable(10.0 * neutral)))
+}
+
+fn has_pivots<B: Elastic, const S: usize>(
+    mesh: &Mesh<'_, B, S>,
+    state: &Configuration<S>,
+    buffers: &Buffers<S>,
+) -> bool {
+    buffers.least_stiffness > PIVOT * scale(mesh, state).wrench()[0]
+        && (0..mesh.elements()).all(|i| is_resolved(mesh, i, state))
 }
 
 /// How stable a state is. What of the last pivot is below `neutral`, in units of the rod's bending stiffness, counts as nothing.

@@ -15,7 +15,7 @@ use crate::solve::scale::Scale;
 pub(crate) fn chain<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     state: &Configuration<S>,
-    condensed: &[Condensed<S>],
+    condensed: &Condensed<S>,
     scale: &Scale,
 ) -> Option<Chain> {
     let units = Units { length: scale.length, force: scale.force };
@@ -23,7 +23,7 @@ pub(crate) fn chain<B: Elastic, const S: usize>(
     let mut links = Vec::with_capacity(n);
     let mut stops = Vec::new();
     let mut joints = state.joints.iter();
-    for (i, element) in condensed[..n].iter().enumerate() {
+    for i in 0..n {
         let mut end = state.end_wrench[i];
         if let Some((j, joint)) = mesh.joint_at(i + 1).and_then(|j| Some((j, joints.next()?))) {
             let fixed = &mesh.rod.joints()[j];
@@ -36,7 +36,7 @@ pub(crate) fn chain<B: Elastic, const S: usize>(
                 stops.push(Stop { node: i + 1, condition, corner: Link::corner(&fixed.corner, &units) });
             }
         }
-        links.push(Link::new(&element.transfer, &state.node_wrench[i], &end, &units));
+        links.push(Link::new(&condensed.transfer(i), &state.node_wrench[i], &end, &units));
     }
     let (base, tip) = (&mesh.rod.base_fixture().support, &mesh.rod.tip_fixture().support);
     let mut at_base = base_equations(mesh, state);

@@ -1,0 +1,83 @@
+//! The kernel of the kinematics in the plane.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::magnus::{exp, exponent, taylor_data};
+use super::rows::{Twists, store_pose};
+use crate::lie::{Pose, Twist};
+use crate::rod::collocation::Collocation;
+use crate::rod::element::Kinematics;
+use crate::rod::lanes::{NOTHING, Row, STAGES, Table, run, stumpff};
+use crate::scalar::{Kernel, Lane};
+
+/// cos θ, sin θ, p_z and p_x of stages and end.
+struct Motions {
+    pose: [[Row; 4]; STAGES + 1],
+    suspect: Row,
+}
+
+struct Move<'a> {
+    table: &'a Table,
+    twists: &'a Twists,
+    count: usize,
+    out: &'a mut Motions,
+}
+
+impl Kernel for Move<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lane>(self) {
+        let Self { table, twists, count, out } = self;
+        for at in (0..count).step_by(L::LANES) {
+            let mut suspect = L::splat(0.0);
+            for k in 0..=table.stages {
+                let alpha = taylor_data::<L>(&table.taylor[k], twists, table.stages, at);
+                let omega = exponent(&alpha, table.stages);
+                let c = stumpff(omega.angular * omega.angular, &mut suspect);
+                let pose = exp(&omega, &c);
+                store_pose(&pose, &mut out.pose[k], at);
+            }
+            suspect.store(&mut out.suspect[at..]);
+        }
+    }
+}
+
+/// As [`lanes::kinematics`](crate::rod::lanes::kinematics), for elements in the plane: lengths and twists.
+pub(crate) fn kinematics<const S: usize>(
+    table: &Collocation<S>,
+    elements: impl Fn(usize) -> (f64, [Twist; S]),
+    into: &mut [Kinematics<f64, S>],
+) {
+    let mut twists = Twists::new();
+    for i in 0..into.len() {
+        let (h, xi) = elements(i);
+        twists.set(i, h, &xi);
+    }
+    let mut out = Motions { pose: [[NOTHING; 4]; STAGES + 1], suspect: NOTHING };
+    move_block(&Table::of(table), &twists, into.len(), &mut out);
+    for (i, into) in into.iter_mut().enumerate() {
+        if out.suspect[i] != 0.0 {
+            let (h, xi) = elements(i);
+            *into = Kinematics::new(table, &xi, h);
+            continue;
+        }
+        for (pose, rows) in into.stage.iter_mut().zip(&out.pose) {
+            *pose = pose_of(rows, i);
+        }
+        into.end = pose_of(&out.pose[S], i);
+    }
+}
+
+#[inline(never)]
+fn move_block(table: &Table, twists: &Twists, count: usize, out: &mut Motions) {
+    run(Move { table, twists, count, out }, count);
+}
+
+/// The pose in space of cos θ, sin θ, p_z and p_x.
+#[inline(always)]
+pub(in crate::rod) fn pose_of(rows: &[Row; 4], i: usize) -> Pose {
+    let [cos, sin, z, x] = rows.each_ref().map(|row| row[i]);
+    let rotation = Matrix3::new(cos, 0.0, sin, 0.0, 1.0, 0.0, -sin, 0.0, cos);
+    Pose::new(rotation, Vector3::new(x, 0.0, z))
+}
