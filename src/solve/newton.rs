@@ -82,7 +82,7 @@ pub(crate) struct Outcome<const S: usize> {
     /// How many iterations were made.
     pub(crate) iterations: usize,
     pub(crate) failure: Option<Reason>,
-    /// [`Sweep::least_stiffness`](super::sweep::Sweep) of the last step, 0 where it is not known.
+    /// [`DeadSweep::least_stiffness`](super::dead::DeadSweep) of the last step, 0 where it is not known.
     pub(crate) least_stiffness: f64,
     /// Size of that step.
     pub(crate) last_step: f64,

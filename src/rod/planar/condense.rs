@@ -72,6 +72,9 @@ struct Condense<'a> {
     out: &'a mut Eliminated,
 }
 
+/// A load by a change of strains: moment and force by δω, and the moment by δν, as a row.
+type ByStrain<L> = (PlaneWrench<L>, Complex<L>);
+
 /// What loads add: δF_l = Σ_m g_lm δq_m + e_l w_i, the loads of the stages brought to node i.
 struct Loads<L> {
     /// Of δω_m: moment and force; of δν_m: the moment alone, as a row.
@@ -223,7 +226,7 @@ impl<L: Lane> Loads<L> {
         weights: &[f64; STAGES],
         h: L,
         pose: &Placed<L>,
-    ) -> (PlaneWrench<L>, [(PlaneWrench<L>, Complex<L>); STAGES]) {
+    ) -> (PlaneWrench<L>, [ByStrain<L>; STAGES]) {
         let none = (L::splat(0.0), Complex::zero());
         let (mut turn, mut strain) = (none, [(none, Complex::zero()); STAGES]);
         for l in 0..stages {
@@ -252,7 +255,7 @@ fn finish<L: Lane>(
     system: &System<L>,
     stages: usize,
     (variation, (_, force)): (&[PlaneMap<L>; STAGES], &PlaneWrench<L>),
-    (turn, ends): (&PlaneWrench<L>, &[(PlaneWrench<L>, Complex<L>); STAGES]),
+    (turn, ends): (&PlaneWrench<L>, &[ByStrain<L>; STAGES]),
     at: usize,
     out: &mut Eliminated,
 ) {

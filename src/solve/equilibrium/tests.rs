@@ -6,7 +6,7 @@ use super::*;
 use crate::body::{Density, HasMass, LineMass};
 use crate::lie::Strain;
 use crate::lie::Twist;
-use crate::load::{DeadWrench, Gravity};
+use crate::load::{DeadLoad, DeadWrench, Gravity};
 use crate::material::NeoHookean;
 use crate::rod::Rod;
 use crate::rod::condense::Condensed;
@@ -298,7 +298,7 @@ fn the_newton_step_solves_the_linearised_equations() {
     }
 }
 
-/// A heavy rod with a dead moment and force on its tip, all in the plane of x and z, and bent there at rest.
+/// A rod with a dead force per length, and a dead moment and force on its tip, all in the plane of x and z, and bent there at rest.
 fn plane_rod(constraint: Constraint) -> Rod<Tapered> {
     let radius = Linear { from: 0.02, to: 0.012, length: 0.3 };
     let section = Section::new(Circle::new(radius), NeoHookean::new(2e5, 3e5).unwrap()).unwrap();
@@ -306,8 +306,9 @@ fn plane_rod(constraint: Constraint) -> Rod<Tapered> {
     let body = Body::new(0.3, section).unwrap().with_reference_strain(curved).unwrap();
     let body = body.with_density(1100.0).unwrap().with_constraint(constraint);
     let tip = DeadWrench::new(vector![0.0, -0.03, 0.0], vector![0.3, 0.0, -0.1]).unwrap();
-    let weight = Gravity::new(vector![1.0, 0.0, -9.0]).unwrap();
-    Rod::clamped(body, Pose::identity()).with_tip_load(tip).with_load(weight)
+    // not its weight, which has a moment where the rod is bent at rest
+    let load = DeadLoad::new(Wrench::new(Vector3::zeros(), vector![1.0, 0.0, -3.0])).unwrap();
+    Rod::clamped(body, Pose::identity()).with_tip_load(tip).with_load(load)
 }
 
 /// Rotations and moments swept block by block, against all components of a chain that is kept.
@@ -346,10 +347,8 @@ fn dead_sweep_holds<const S: usize>(rod: &Rod<Tapered>, in_plane: bool) {
 
 #[test]
 fn under_dead_forces_half_the_components_say_it_all() {
-    for heavy in [false, true] {
-        dead_sweep_holds::<2>(&rod(heavy), false);
-        dead_sweep_holds::<3>(&rod(heavy), false);
-    }
+    dead_sweep_holds::<2>(&rod(false), false);
+    dead_sweep_holds::<3>(&rod(false), false);
     for (constraint, in_plane) in [
         (Constraint::none(), false),
         (Constraint::kirchhoff(), false),
