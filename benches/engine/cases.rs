@@ -238,6 +238,7 @@ pub trait Direct {
 /// The dual number of `hessian()` in the six strains.
 pub type Six = Dual2SVec64<6>;
 
+#[allow(clippy::op_ref)] // see `Direct`
 impl Direct for PolyByHand {
     #[inline(always)]
     fn energy_density(a: &Six, b: &Six, e: &Six) -> Six {
@@ -249,6 +250,7 @@ impl Direct for PolyByHand {
     }
 }
 
+#[allow(clippy::op_ref)] // see `Direct`
 impl Direct for NeoHookeanByHand {
     #[inline(always)]
     fn energy_density(a: &Six, b: &Six, e: &Six) -> Six {
@@ -260,6 +262,7 @@ impl Direct for NeoHookeanByHand {
 
 /// u at a point in the six strains; points are plain numbers.
 #[inline(always)]
+#[allow(clippy::op_ref)] // see `Direct`
 fn at_point<H: Direct>(v: &SVector<Six, 6>, x: f64, y: f64) -> Six {
     let a = &v[3] - v[2] * y;
     let b = &v[4] + v[2] * x;
