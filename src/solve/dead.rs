@@ -6,7 +6,7 @@ use nalgebra::{Matrix6, Vector6};
 
 use super::linear::{Increment, Step};
 use super::scale::Scale;
-use super::sweep::{Misfit, minus_product};
+use super::sweep::{Misfit, eliminate, minus_product};
 use crate::lie::{Wrench, so3::hat};
 use crate::rod::condense::{Answers, Condensed, DeadBlocks, Relation};
 use crate::rod::lanes::ELEMENTS;
@@ -230,33 +230,9 @@ fn step_back(t: &DeadBlocks<3>, next: &Relation) -> Option<(Relation, f64)> {
         }
         right[r][3] = constant;
     }
-    Some((solve(&matrix, &right)?, stiffness))
-}
-
-/// M⁻¹ R by cofactors. What digits they lose where M is near to singular, the check of the chain finds.
-#[inline(always)]
-fn solve(m: &[[f64; 3]; 3], right: &Relation) -> Option<Relation> {
-    let minor = |a: usize, b: usize, c: usize, d: usize| m[a][b] * m[c][d] - m[a][d] * m[c][b];
-    // rows of the adjugate
-    let adjugate = [
-        [minor(1, 1, 2, 2), -minor(0, 1, 2, 2), minor(0, 1, 1, 2)],
-        [-minor(1, 0, 2, 2), minor(0, 0, 2, 2), -minor(0, 0, 1, 2)],
-        [minor(1, 0, 2, 1), -minor(0, 0, 2, 1), minor(0, 0, 1, 1)],
-    ];
-    let determinant = m[0][0] * adjugate[0][0] + m[0][1] * adjugate[1][0] + m[0][2] * adjugate[2][0];
-    let inverse = 1.0 / determinant;
-    if !(determinant != 0.0 && inverse.is_finite()) {
-        return None;
-    }
-    let mut solution = [[0.0; 4]; 3];
-    for r in 0..3 {
-        for c in 0..4 {
-            let sum =
-                adjugate[r][0] * right[0][c] + adjugate[r][1] * right[1][c] + adjugate[r][2] * right[2][c];
-            solution[r][c] = sum * inverse;
-        }
-    }
-    Some(solution)
+    let mut left = matrix;
+    eliminate(&mut left, &mut right)?;
+    Some((right, stiffness))
 }
 
 /// The same in the plane, where the stiffness is its own bound.

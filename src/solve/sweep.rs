@@ -213,7 +213,7 @@ fn step_back<const N: usize, const W: usize>(
 
 /// Gaussian elimination with row pivoting; the solution is in `right`.
 #[inline(always)]
-fn eliminate<const N: usize, const C: usize>(
+pub(super) fn eliminate<const N: usize, const C: usize>(
     left: &mut [[f64; N]; N],
     right: &mut [[f64; C]; N],
 ) -> Option<()> {

@@ -102,10 +102,7 @@ fn is_resolved<B: Elastic, const S: usize>(
     })
 }
 
-/// Pivots of the last Newton step are surely positive above this, in units of the rod's bending stiffness.
-const PIVOT: f64 = 1e-3;
-
-/// Whether a cantilever that was just solved is surely stable: by the pivots as they were in the last Newton step, or by those of its elements.
+/// Whether a cantilever that was just solved is surely stable.
 pub(crate) fn is_surely_stable<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     unknowns: &Unknowns<S>,
@@ -117,19 +114,9 @@ pub(crate) fn is_surely_stable<B: Elastic, const S: usize>(
         && is_conservative(mesh, state)
         && softening(mesh, state).is_none()
         && needed_parts(mesh, state, SAFE).iter().all(|&count| count == 1)
-        && (has_pivots(mesh, state, buffers)
-            || buffers.condense(mesh, unknowns, state).is_ok()
-                && chain(mesh, state, &buffers.condensed, &scale(mesh, state))
-                    .is_some_and(|c| c.is_surely_stable(10.0 * neutral)))
-}
-
-fn has_pivots<B: Elastic, const S: usize>(
-    mesh: &Mesh<'_, B, S>,
-    state: &Configuration<S>,
-    buffers: &Buffers<S>,
-) -> bool {
-    buffers.least_stiffness > PIVOT * scale(mesh, state).wrench()[0]
-        && (0..mesh.elements()).all(|i| is_resolved(mesh, i, state))
+        && buffers.condense(mesh, unknowns, state).is_ok()
+        && chain(mesh, state, &buffers.condensed, &scale(mesh, state))
+            .is_some_and(|c| c.is_surely_stable(10.0 * neutral))
 }
 
 /// How stable a state is. What of the last pivot is below `neutral`, in units of the rod's bending stiffness, counts as nothing.
