@@ -93,14 +93,17 @@ impl<const S: usize> DeadSweep<S> {
         step: &mut Increment<S>,
     ) -> Option<Step> {
         let moment_at = |i: usize, w: &[f64; 3]| self.moment(i, plane, w);
-        let unit = 1.0 / scale.wrench()[0];
+        let [unit, .., force_unit] = scale.wrench().map(|unit| 1.0 / unit);
         let (mut turn, mut shift) = ([0.0; 3], [0.0; 3]);
         let mut misfit = Misfit::default();
         let mut size = Size::default();
         let count = wrenches.len() - 1;
         step.nodes.clear();
         step.strains.clear();
-        step.nodes.push(node(&turn, &shift, &moment_at(0, &turn), &wrenches[0]));
+        let first = moment_at(0, &turn);
+        // a single element ends at the tip, where there may be no moment to compare with
+        first.iter().for_each(|m| misfit.add(*m, *m, unit));
+        step.nodes.push(node(&turn, &shift, &first, &wrenches[0]));
         for first in (0..count).step_by(ELEMENTS) {
             let block = first..count.min(first + ELEMENTS);
             let mut turns = [[0.0; 3]; ELEMENTS];
@@ -113,6 +116,9 @@ impl<const S: usize> DeadSweep<S> {
                     misfit.add(answer.moment[r], moment[r], unit);
                 }
                 let at = node(&turn, &shift, &moment, &wrenches[i + 1]);
+                for r in 3..6 {
+                    misfit.add(at.1[r], at.1[r], force_unit);
+                }
                 size.add_node(&at.0, &at.1);
                 step.nodes.push(at);
             }

@@ -20,6 +20,9 @@ use crate::rod::planar;
 /// By how much a tangent with neutral modes is made stiffer.
 const STIFFER: f64 = 1e-7;
 
+/// Elements of more than so many are not kept where they are swept block by block.
+const KEPT: usize = 64;
+
 /// Displacement ζ and change of wrench δΛ of a node.
 pub(crate) type NodeStep = (Vector6<f64>, Vector6<f64>);
 
@@ -45,6 +48,8 @@ pub(crate) struct Increment<const S: usize> {
 /// Memory of the solves on meshes of one order, kept from iteration to iteration and from solve to solve.
 pub(crate) struct Buffers<const S: usize> {
     pub(super) condensed: Condensed<S>,
+    /// Whether the elements of the last step are all in `condensed`.
+    kept: bool,
     /// One block of elements, where no more are kept.
     window: Condensed<S>,
     sweep: Sweep,
@@ -65,6 +70,7 @@ impl<const S: usize> Default for Buffers<S> {
     fn default() -> Self {
         Self {
             condensed: Condensed::default(),
+            kept: false,
             window: Condensed::default(),
             sweep: Sweep::default(),
             dead: DeadSweep::default(),
@@ -179,21 +185,38 @@ impl<const S: usize> Buffers<S> {
         if kind.loads > Loads::Dead {
             return Ok(None);
         }
-        self.window.begin(1, &kind);
-        self.dead.begin(&self.window, n, tip);
+        // what is small is kept, for a verdict
+        self.kept = n <= KEPT;
+        let elements = if self.kept { &mut self.condensed } else { &mut self.window };
+        elements.begin(if self.kept { n } else { 1 }, &kind);
+        self.dead.begin(elements, n, tip);
         let element = |i: usize| mesh.element(i, &unknowns.strains, state);
         for first in (0..n).step_by(ELEMENTS).rev() {
             let block = first..n.min(first + ELEMENTS);
-            self.window
-                .fill(&mesh.table, &kind, 0, block.clone(), element, wrenches)
+            let place = if self.kept { first } else { 0 };
+            elements
+                .fill(&mesh.table, &kind, place, block.clone(), element, wrenches)
                 .map_err(|i| Error::Singular { matrix: "tangent of an element", s: mesh.node_s(i) })?;
-            if self.dead.back(&self.window, 0, block, wrenches).is_none() {
+            if self.dead.back(elements, place, block, wrenches).is_none() {
                 return Ok(None);
             }
         }
         self.least_stiffness = self.dead.least_stiffness();
         self.step.reactions.clear();
         Ok(self.dead.forward(wrenches, kind.plane, scale, &mut self.step))
+    }
+
+    /// The elements of the last step, or of the state where they were not kept.
+    pub(super) fn condensed_of<B: Elastic>(
+        &mut self,
+        mesh: &Mesh<'_, B, S>,
+        unknowns: &Unknowns<S>,
+        state: &Configuration<S>,
+    ) -> Result<&Condensed<S>> {
+        if !self.kept {
+            self.condense(mesh, unknowns, state)?;
+        }
+        Ok(&self.condensed)
     }
 
     /// The transfers of the elements, joints without a support taken into the element before them.
@@ -205,6 +228,7 @@ impl<const S: usize> Buffers<S> {
     ) -> Result<()> {
         let n = mesh.elements();
         let kind = kind_of_elements(mesh, state);
+        self.kept = true;
         self.condensed.begin(n, &kind);
         let element = |i: usize| mesh.element(i, &unknowns.strains, state);
         for first in (0..n).step_by(ELEMENTS) {

@@ -313,9 +313,14 @@ fn plane_rod(constraint: Constraint) -> Rod<Tapered> {
 
 /// Rotations and moments swept block by block, against all components of a chain that is kept.
 fn dead_sweep_holds<const S: usize>(rod: &Rod<Tapered>, in_plane: bool) {
-    // two blocks, the second not full
-    const COUNT: usize = 11;
-    let mesh = Mesh::<_, S>::uniform(rod, COUNT);
+    // one element, and two blocks, the second not full
+    for count in [1, 11] {
+        dead_sweep_holds_on::<S>(rod, in_plane, count);
+    }
+}
+
+fn dead_sweep_holds_on<const S: usize>(rod: &Rod<Tapered>, in_plane: bool, count: usize) {
+    let mesh = Mesh::<_, S>::uniform(rod, count);
     let fixed = rod.body().constraint().fixed();
     let mut seed = 9;
     let mut strain = || {
@@ -327,7 +332,7 @@ fn dead_sweep_holds<const S: usize>(rod: &Rod<Tapered>, in_plane: bool) {
         }
         Strain::from_array(six)
     };
-    let at: StageStrains<S> = (0..COUNT).map(|_| std::array::from_fn(|_| strain())).collect();
+    let at: StageStrains<S> = (0..count).map(|_| std::array::from_fn(|_| strain())).collect();
     let (state, unknowns) = (configured(&mesh, &at), unknowns(&mesh, &at));
     assert_eq!(kind_of_elements(&mesh, &state).plane, in_plane);
     let scale = Scale { length: 0.3, force: 1.0 };

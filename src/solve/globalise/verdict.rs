@@ -102,7 +102,7 @@ fn is_resolved<B: Elastic, const S: usize>(
     })
 }
 
-/// Whether a cantilever that was just solved is surely stable.
+/// Whether a cantilever that was just solved is surely stable, by the elements as they were in the last step where these are kept.
 pub(crate) fn is_surely_stable<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     unknowns: &Unknowns<S>,
@@ -114,8 +114,10 @@ pub(crate) fn is_surely_stable<B: Elastic, const S: usize>(
         && is_conservative(mesh, state)
         && softening(mesh, state).is_none()
         && needed_parts(mesh, state, SAFE).iter().all(|&count| count == 1)
-        && buffers.condense(mesh, unknowns, state).is_ok()
-        && chain(mesh, state, &buffers.condensed, &scale(mesh, state))
+        && buffers
+            .condensed_of(mesh, unknowns, state)
+            .ok()
+            .and_then(|elements| chain(mesh, state, elements, &scale(mesh, state)))
             .is_some_and(|c| c.is_surely_stable(10.0 * neutral))
 }
 
