@@ -33,7 +33,7 @@ impl StaticSolution {
     /// use hyperrod::section::{Rectangle, Relaxed, Warping};
     /// use hyperrod::{Body, Pose, Rod, Statics};
     /// use nalgebra::vector;
-    /// # fn main() -> hyperrod::Result<()> {
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
     /// let square = Relaxed::new(Rectangle::new(0.01, 0.01), NeoHookean::from_young(1e6, 0.3)?)?;
     /// let body = Body::new(0.2, square.with_warping(Warping::SHEAR)?)?;
     /// let rod = Rod::clamped(body, Pose::identity()).with_tip_load(DeadWrench::force(vector![0.0, -0.02, 0.0])?);
