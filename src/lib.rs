@@ -174,7 +174,8 @@
 //!
 //! # What is not there yet
 //!
-//! * Rods joined to rods; contact; gradients of a solve in its parameters.
+//! * Rods joined to rods; joints inside a rod that release a freedom; contact; gradients of a solve in its parameters.
+//! * Dynamics with ρ∞ = 1 under fixed strains or supports beyond the base: refused by name.
 //! * Thin-walled and re-entrant sections that relax: polynomials serve them poorly.
 
 /// The dual numbers that sizes, angles and references along s are functions of: `use hyperrod::num_dual::{Dual64, DualNum};`
