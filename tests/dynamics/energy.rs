@@ -97,7 +97,7 @@ fn a_free_rod_keeps_its_momenta_and_energy() {
     let spin = Twist::from_array([3.0, 0.0, 5.0, 0.1, 0.0, 0.0]);
     let bent = |s: f64| 2.0 * (s / 0.4 * std::f64::consts::PI).sin().powi(2);
     for (scheme, elements, dt, steps) in
-        [(Scheme::Esdirk43, 3, 2e-3, 1500), (Scheme::GeneralisedAlpha { rho: 0.9 }, 2, 1e-3, 20_000)]
+        [(Scheme::Esdirk43, 3, 2e-3, 2000), (Scheme::GeneralisedAlpha { rho: 0.9 }, 3, 1e-3, 20_000)]
     {
         let dynamics = Dynamics { scheme, elements, order: Order::Four, conserve: true, ..fixed(dt) };
         let start = Start::at_rest()
@@ -121,7 +121,7 @@ fn a_free_rod_keeps_its_momenta_and_energy() {
         }
         println!("{scheme:?}: energy {energy:?}, momenta {momentum:?}");
         for half in 0..2 {
-            assert!(energy[half] < 1e-11 && momentum[half] < 1e-12, "{scheme:?}: {energy:?} {momentum:?}");
+            assert!(energy[half] < 1e-11 && momentum[half] < 1e-13, "{scheme:?}: {energy:?} {momentum:?}");
         }
         // no trend but that of rounding
         assert!(energy[1] < 4.0 * energy[0] + 1e-13, "{scheme:?}: {energy:?}");
