@@ -125,7 +125,7 @@
 //! 3. **Its E and G are those of a section that cannot contract.** For Mooney–Rivlin with its reference pressure,
 //!
 //!    ```math
-//!    E_{rigid} = 2C_1 + 4C_2, \qquad E_{rubber} = 6(C_1 + C_2), \qquad G = 2C_1 + 2C_2
+//!    E_\text{rigid} = 2C_1 + 4C_2, \qquad E_\text{rubber} = 6(C_1 + C_2), \qquad G = 2C_1 + 2C_2
 //!    ```
 //!
 //!    where the second is the Young's modulus of the incompressible rubber itself. A compressible law on a rigid section likewise has the axial

@@ -77,7 +77,7 @@ impl<B: Elastic> Rod<B> {
     /// The rate of the strain twist along the rod at a section, by the balance of momentum, the law, and the loads per length of this rod.
     ///
     /// ```math
-    /// \xi' = \Bigl(\frac{\partial\Psi}{\partial\Delta\xi} - \bar A\Bigr)^{-1}
+    /// \xi' = \left(\frac{\partial\Psi}{\partial\Delta\xi} - \bar A\right)^{-1}
     /// \Bigl(M\dot\eta - \mathrm{ad}_\eta^{\mathsf T} M\eta + \mathrm{ad}_\xi^{\mathsf T}\Psi - \Psi' + \bar B
     /// + \frac{\partial\Psi}{\partial\Delta\xi}\,(\xi^*)'\Bigr)
     /// ```

@@ -98,7 +98,7 @@ impl AreaMoments {
     ///
     /// ```math
     /// \tan 2\varphi = \frac{-2 I_{xy}}{I_x - I_y}, \qquad
-    /// I_{1,2} = \frac{I_x + I_y}{2} \pm \sqrt{\Bigl(\frac{I_x - I_y}{2}\Bigr)^2 + I_{xy}^2}
+    /// I_{1,2} = \frac{I_x + I_y}{2} \pm \sqrt{\left(\frac{I_x - I_y}{2}\right)^2 + I_{xy}^2}
     /// ```
     pub fn principal_axes(&self) -> PrincipalAxes {
         let (mean, half) = (0.5 * (self.i_x + self.i_y), 0.5 * (self.i_x - self.i_y));

@@ -49,7 +49,7 @@ pub fn suggest<B: Elastic>(rod: &Rod<B>, tolerance: f64) -> Result<Suggestion, B
 /// The scene is solved once, as it is. A simpler section carries the wrench Ψ of that answer with another strain, Δξ + δ:
 ///
 /// ```math
-/// \Psi_{simple}(\Delta\xi + \delta) = \Psi(\Delta\xi), \qquad (\Delta\xi + \delta)_i = 0 \text{ for a strain } i \text{ left out}
+/// \Psi_\text{simple}(\Delta\xi + \delta) = \Psi(\Delta\xi), \qquad (\Delta\xi + \delta)_i = 0 \text{ for a strain } i \text{ left out}
 /// ```
 ///
 /// δ acts on the rod as a strain at rest would. One linear solve with the tangent of the answer, loads and supports
