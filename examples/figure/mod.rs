@@ -12,7 +12,7 @@ mod scale;
 mod sheet;
 
 pub use animation::Animation;
-pub use chart::{Chart, Slope, stack};
+pub use chart::{Chart, Marker, Slope, stack};
 pub use drawing::{Drawing, silhouette};
 pub use sheet::{BLUE, GREEN, GREY, ORANGE, PURPLE, SKY};
 

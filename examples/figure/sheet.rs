@@ -57,6 +57,12 @@ impl Sheet<'_> {
         Ok(self.area.draw(&Circle::new(fine(&centre), (radius * FINE) as i32, color.filled()))?)
     }
 
+    /// A circle, white inside.
+    pub fn ring(&self, centre: [f64; 2], radius: f64, color: RGBColor) -> Outcome {
+        self.disc(centre, radius, color)?;
+        self.disc(centre, radius - 1.6, WHITE)
+    }
+
     /// Text at a point: `h` in {−1, 0, 1} puts it right of the point, centred, left of it; `v` below, centred, above.
     pub fn text(&self, text: &str, at: [f64; 2], [h, v]: [i8; 2], size: f64) -> Outcome {
         self.draw_text(text, at, [h, v], size, FontTransform::None)

@@ -6,7 +6,7 @@ use hyperrod::{Rod, StaticSolution, Statics};
 use std::hint::black_box;
 use std::time::Instant;
 
-use super::figure::{Chart, Outcome, stack};
+use super::figure::{Chart, Marker, Outcome, stack};
 use super::page::{Page, digits, scientific};
 use super::scenes::{Beam, SECTIONS, Scene, scenes};
 use super::table::{Row, Table};
@@ -23,6 +23,9 @@ const STRAINS: [(&str, &str); 4] = [
     ("Kirchhoff", "kirchhoff"),
     ("all strains", "all"),
 ];
+
+/// How they are drawn.
+const MARKERS: [Marker; 4] = [Marker::SmallRing, Marker::SmallDisc, Marker::Ring, Marker::Disc];
 
 const TOLERANCES: [(&str, f64); 6] =
     [("1e-1", 1e-1), ("1e-2", 1e-2), ("1e-3", 1e-3), ("1e-4", 1e-4), ("1e-5", 1e-5), ("1e-6", 1e-6)];
@@ -122,7 +125,7 @@ pub fn page(run: &Run, page: &mut Page) -> Outcome {
     page.heading("Which model");
     page.paragraph(&format!(
         "What each choice costs, and how far off it is. The modelling error is the largest displacement of a node over L, or rotation in rad, from the richest model, the \
-         section `{}` with all strains, on the same mesh of 16 elements of order 6. In the figure a colour is a section, its dots the four choices of strains of the tables; what is below {FLOOR:.0e} is rounding. The estimate is that of \
+         section `{}` with all strains, on the same mesh of 16 elements of order 6. In the figure a colour is a section, a marker a choice of strains; what is below {FLOOR:.0e} is rounding. The estimate is that of \
          [`suggest`](../src/solve/model_ladder/mod.rs), which solves the richest model only. *Matched* constants are λ + 2μ = E and μ = G: what a rigid section needs to have the moduli of \
          the rod.",
         own()
@@ -186,14 +189,20 @@ fn draw(run: &Run, table: &Table) -> Outcome {
     let mut charts = Vec::new();
     for scene in scenes() {
         let title = scene.title.split(", E").next().unwrap_or_default();
-        let title = format!("{title}; against `{}` with all strains", own());
+        let title = format!("{title}; against {} with all strains", own());
         let mut chart = Chart::new(&title, "time of a solve, ms", "modelling error").log(true, true);
         for section in SECTIONS {
-            let rows = table.rows().filter(|row| row.is("scene", scene.short) && row.is("section", section));
-            let points = rows
-                .filter(|row| row.number("error") > FLOOR)
-                .map(|row| [row.number("us") * 1e-3, row.number("error")]);
-            chart = chart.marks(section, points);
+            let rows =
+                || table.rows().filter(|row| row.is("scene", scene.short) && row.is("section", section));
+            for ((strains, _), marker) in STRAINS.into_iter().zip(MARKERS) {
+                let points = rows()
+                    .filter(|row| row.is("strains", strains) && row.number("error") > FLOOR)
+                    .map(|row| [row.number("us") * 1e-3, row.number("error")]);
+                chart = chart.marks_as(section, marker, points);
+            }
+        }
+        for ((strains, _), marker) in STRAINS.into_iter().zip(MARKERS) {
+            chart = chart.key(strains, marker);
         }
         charts.push(chart);
     }
