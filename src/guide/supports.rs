@@ -96,8 +96,9 @@
 //! # Ok(()) }
 //! ```
 //!
-//! Every solve begins at rest, so it does not matter which tensions came before. Where several equilibria are stable, as when an arm curls up,
-//! neighbours in a sweep may lie on different branches: a jump in the table, or a coordinate that was zero, shows it.
+//! Every [`solve`](crate::Statics::solve) begins at rest, so it does not matter which tensions came before. Where several equilibria are stable, as when
+//! an arm curls up, neighbours in such a sweep may lie on different branches: a jump in the table, or a coordinate that was zero, shows it.
+//! [`solve_from`](crate::Statics::solve_from) begins at the shape of an earlier solution, and stays on its branch.
 //!
 //! The strain energy that a solution reports contains the energy of its actuators: tension times length, less pressure times volume.
 //!

@@ -12,7 +12,7 @@ mod map;
 mod pose;
 pub mod se3;
 #[cfg(feature = "serde")]
-mod serialize;
+pub(crate) mod serialize;
 pub mod so3;
 mod vectors;
 

@@ -65,3 +65,16 @@ macro_rules! as_pair {
 as_pair!(Twist, angular, linear, TwistFields, "Twist");
 as_pair!(Strain, angular, linear, StrainFields, "Strain");
 as_pair!(Wrench, moment, force, WrenchFields, "Wrench");
+
+/// A vector of space as `[x, y, z]`, for `#[serde(with = ..)]`.
+pub(crate) mod vector {
+    use super::{Deserialize, Deserializer, Serialize, Serializer, Vector3};
+
+    pub(crate) fn serialize<S: Serializer>(vector: &Vector3<f64>, serializer: S) -> Result<S::Ok, S::Error> {
+        <[f64; 3]>::from(*vector).serialize(serializer)
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vector3<f64>, D::Error> {
+        <[f64; 3]>::deserialize(deserializer).map(Vector3::from)
+    }
+}

@@ -14,7 +14,8 @@ use crate::scalar::Scalar;
 /// G = \tfrac12 \sum_p \mu_p \alpha_p, \qquad E_{\text{rigid}} = \lambda + 2G .
 /// ```
 ///
-/// The second constant is λ, **not the bulk modulus** K of a datasheet: λ = K − 2G/3. And a section that cannot contract bends with
+/// The second constant of [`new`](Self::new) is λ, **not the bulk modulus** K of a datasheet, from which
+/// [`with_bulk_modulus`](Self::with_bulk_modulus) takes λ = K − 2G/3. And a section that cannot contract bends with
 /// λ + 2G: with the bulk modulus of rubber, near 1 GPa, a rod is a thousand times too stiff. Take λ = G, which makes E_rigid the 3G of the
 /// incompressible rubber.
 ///
@@ -61,6 +62,26 @@ impl Ogden {
         positive("Ogden shear modulus (half the sum of mu alpha)", law.shear_modulus())?;
         positive("bulk modulus lambda + 2 G / 3", lambda + 2.0 / 3.0 * law.shear_modulus())?;
         Ok(law)
+    }
+
+    /// From the terms and the bulk modulus at rest K, Pa, with which λ = K − 2G/3. For a section that [relaxes](crate::section::Relaxed): a rigid one has
+    /// E_rigid = K + 4G/3, far too stiff with the K of a rubber.
+    ///
+    /// ```
+    /// use hyperrod::material::Ogden;
+    ///
+    /// let rubber = Ogden::with_bulk_modulus(&[(0.63e6, 1.3), (0.0012e6, 5.0)], 1e9)?;
+    /// let lambda = 1e9 - 2.0 / 3.0 * rubber.shear_modulus();
+    /// assert_eq!(rubber, Ogden::new(&[(0.63e6, 1.3), (0.0012e6, 5.0)], lambda)?);
+    /// # Ok::<(), hyperrod::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_bulk_modulus(terms: &[(f64, f64)], bulk: f64) -> Result<Self> {
+        positive("bulk modulus", bulk)?;
+        let shear = 0.5 * terms.iter().map(|(mu, alpha)| mu * alpha).sum::<f64>();
+        Self::new(terms, bulk - 2.0 / 3.0 * shear)
     }
 
     /// G = ½ Σ μ_p α_p, Pa.

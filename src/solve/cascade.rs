@@ -58,6 +58,8 @@ pub(super) struct Cascade<'r, 'o, B, const S: usize> {
     pub(super) newton: Newton<'o>,
     pub(super) buffers: &'o mut Buffers<S>,
     pub(super) report: Report,
+    /// Whose shape Newton's method starts from, where it is given.
+    pub(super) earlier: Option<&'o StaticSolution>,
     /// Whether an equilibrium that would not stay is an answer.
     pub(super) accept_unstable: bool,
     /// Whether the first mesh already is to have a stable state: after an answer that was none.
@@ -88,6 +90,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
             newton,
             buffers,
             report: Report::default(),
+            earlier: None,
             accept_unstable,
             careful: false,
             tier: 0,
@@ -224,6 +227,8 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
             Err(_) => 2, // the solve finds the same, and says so
         };
         self.buffers.recycle(state);
+        // half as fine as a shape that is known already
+        let elements = elements.max(self.earlier.map_or(0, |earlier| earlier.nodes().len() / 2));
         let rod = self.rod;
         let meshes = (0..FIRST_MESHES).map(|trial| Mesh::uniform(rod, elements * 4_usize.pow(trial)));
         let (mesh, outcome) = self.climb(meshes)?;

@@ -66,6 +66,14 @@ impl StaticSolution {
         lengths.into_iter().zip(stages).map(element).sum()
     }
 
+    /// The strain at s, straight between the stages.
+    pub(super) fn strain_near(&self, s: f64) -> Strain {
+        let after = self.stages.partition_point(|stage| stage.s < s);
+        let last = self.stages.len() - 1;
+        let (a, b) = (&self.stages[after.saturating_sub(1).min(last)], &self.stages[after.min(last)]);
+        if b.s > a.s { a.strain + (b.strain - a.strain) * ((s - a.s) / (b.s - a.s)) } else { a.strain }
+    }
+
     /// Strain energy ∫U ds, J.
     pub fn strain_energy(&self) -> f64 {
         self.strain_energy

@@ -102,6 +102,47 @@ impl Statics {
         self.solve_observed(rod, |_| ())
     }
 
+    /// As [`solve`](Self::solve), from the shape of an earlier solution of a rod of the same length: a sweep of a tension, a pressure or a load stays on
+    /// its branch as far as that goes. Where Newton's method fails from there, the solve goes on from the reference shape.
+    ///
+    /// A strut held 5 % too close buckles to the side it is pushed to, and stays there when the push is gone:
+    ///
+    /// ```
+    /// use hyperrod::rod::Support;
+    /// use hyperrod::{Body, Pose, Rod, Statics, load::DeadLoad, section::Stiffness, Wrench};
+    /// use nalgebra::{Isometry3, Vector3, vector};
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let strut = |push: f64| -> hyperrod::Result<_> {
+    ///     let body = Body::new(1.0, Stiffness::diagonal([4.0, 1.0, 0.8, 1e4, 1e4, 3e4])?)?;
+    ///     let nearer = Pose::from(Isometry3::translation(0.0, 0.0, 0.95));
+    ///     let push = DeadLoad::new(Wrench::new(Vector3::zeros(), vector![push, 0.0, 0.0]))?;
+    ///     Ok(Rod::between(body, Support::clamped(Pose::identity()), Support::clamped(nearer)).with_load(push))
+    /// };
+    /// for side in [1.0, -1.0] {
+    ///     let pushed = Statics::default().solve(&strut(50.0 * side)?)?;
+    ///     let left = Statics::default().solve_from(&strut(0.0)?, &pushed)?;
+    ///     assert!(side * left.nodes()[left.nodes().len() / 2].pose.position.x > 0.1);
+    /// }
+    /// # Ok(()) }
+    /// ```
+    ///
+    /// # Errors
+    /// As [`solve`](Self::solve), and if the earlier rod had another length.
+    pub fn solve_from<B: Elastic>(
+        &self,
+        rod: &Rod<B>,
+        earlier: &StaticSolution,
+    ) -> Result<StaticSolution, Box<Failure>> {
+        let (before, length) = (earlier.tip().s, rod.body().length());
+        if (before - length).abs() > 1e-9 * length {
+            let quantity = "length of the rod of the earlier solution";
+            let error = Error::Invalid { quantity, value: before, requirement: "that of the rod" };
+            return Err(refused(error));
+        }
+        self.run(&mut Workspace::default(), rod, Some(earlier), &mut |_| ())
+    }
+
     /// As [`solve`](Self::solve), calling `observer` after every Newton iteration.
     ///
     /// # Errors
@@ -111,7 +152,7 @@ impl Statics {
         rod: &Rod<B>,
         mut observer: impl FnMut(&Iteration),
     ) -> Result<StaticSolution, Box<Failure>> {
-        self.run(&mut Workspace::default(), rod, &mut observer)
+        self.run(&mut Workspace::default(), rod, None, &mut observer)
     }
 
     /// As [`solve`](Self::solve), in memory that is kept from one solve to the next.
@@ -123,7 +164,7 @@ impl Statics {
         workspace: &mut Workspace,
         rod: &Rod<B>,
     ) -> Result<StaticSolution, Box<Failure>> {
-        self.run(workspace, rod, &mut |_| ())
+        self.run(workspace, rod, None, &mut |_| ())
     }
 
     /// Follows the equilibria of the rod from rest as its loads, and the displacements that its supports hold, grow with the load factor: by arc length,
@@ -202,23 +243,21 @@ impl Statics {
     }
 
     fn options_are_sound(&self) -> Result<(), Box<Failure>> {
-        self.check().map_err(|error| {
-            let reason = Reason::Options(error);
-            Box::new(Failure { reason, report: Report::default(), last: None })
-        })
+        self.check().map_err(refused)
     }
 
     fn run<B: Elastic>(
         &self,
         workspace: &mut Workspace,
         rod: &Rod<B>,
+        earlier: Option<&StaticSolution>,
         observer: &mut dyn FnMut(&Iteration),
     ) -> Result<StaticSolution, Box<Failure>> {
         self.options_are_sound()?;
         match self.order {
-            Order::Two => self.solve_on(workspace.one(), rod, observer),
-            Order::Four => self.solve_on(workspace.two(), rod, observer),
-            Order::Six => self.solve_on(workspace.three(), rod, observer),
+            Order::Two => self.solve_on(workspace.one(), rod, earlier, observer),
+            Order::Four => self.solve_on(workspace.two(), rod, earlier, observer),
+            Order::Six => self.solve_on(workspace.three(), rod, earlier, observer),
         }
     }
 
@@ -243,12 +282,14 @@ impl Statics {
         &self,
         buffers: &mut Buffers<S>,
         rod: &Rod<B>,
+        earlier: Option<&StaticSolution>,
         observer: &mut dyn FnMut(&Iteration),
     ) -> Result<StaticSolution, Box<Failure>> {
         let start = Instant::now();
         let stop = Stop::Step(self.tolerance);
         let newton = Newton { max_iterations: self.max_iterations, stop, observer, amplification: 1.0 };
         let mut cascade = Cascade::<B, S>::new(rod, newton, buffers, self.accept_unstable);
+        cascade.earlier = earlier;
         let solved = match self.accuracy {
             None => cascade.on_mesh(self.elements.div_ceil(2)),
             Some(accuracy) => cascade.to(accuracy),
@@ -265,4 +306,9 @@ impl Statics {
             }
         }
     }
+}
+
+/// A failure before anything was tried.
+fn refused(error: Error) -> Box<Failure> {
+    Box::new(Failure { reason: Reason::Options(error), report: Report::default(), last: None })
 }

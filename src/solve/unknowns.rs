@@ -2,6 +2,7 @@
 
 use super::linear::Increment;
 use super::mesh::Mesh;
+use super::solution::StaticSolution;
 use crate::body::Elastic;
 use crate::lie::{Pose, Strain, Twist, Wrench, se3};
 
@@ -43,6 +44,19 @@ impl<const S: usize> Unknowns<S> {
             base: mesh.start.base,
             reactions: vec![Wrench::zero(); mesh.rod.joints().len()],
             ..Self::default()
+        }
+    }
+
+    /// The shape of an earlier solution: its strains, and its ends where they may move. Reactions, which are found in one step, are left to Newton's method.
+    pub(crate) fn of_earlier<B: Elastic>(mesh: &Mesh<'_, B, S>, earlier: &StaticSolution) -> Self {
+        let at_rest = Self::at_rest(mesh);
+        let place = |i| std::array::from_fn(|k| earlier.strain_near(mesh.stage_s(i, k)));
+        let is_clamped = mesh.rod.base_fixture().support.is_clamped();
+        Self {
+            strains: (0..mesh.elements()).map(place).collect(),
+            base: if is_clamped { at_rest.base } else { earlier.base().pose },
+            tip: earlier.tip().wrench,
+            ..at_rest
         }
     }
 

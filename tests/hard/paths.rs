@@ -3,8 +3,8 @@
 use hyperrod::load::DeadWrench;
 use hyperrod::rod::{Freedom, Support};
 use hyperrod::section::Stiffness;
-use hyperrod::solve::{Order, PathEnd, PathEventKind, PathOptions};
-use hyperrod::{Body, Rod, Statics, Twist};
+use hyperrod::solve::{Order, PathEnd, PathEventKind, PathOptions, Reason, Stability};
+use hyperrod::{Body, Pose, Rod, StaticSolution, Statics, Twist};
 use nalgebra::vector;
 
 /// A shallow circular arch in the x–z plane, rising towards +x, between hinges about y; of unit length and radius of curvature 1/κ.
@@ -69,4 +69,49 @@ fn a_shallow_arch_snaps_through_both_limit_points() {
         assert!((at - load).abs() < 1e-6 * load.abs().max(1.0), "{at} {load}");
         assert!((slope / bend).abs() < 1e-4, "the extremum is {:e} away", slope / bend);
     }
+}
+
+/// x of the crown.
+fn crown(solution: &StaticSolution) -> f64 {
+    let node = solution.nodes().iter().find(|node| (node.s - 0.5).abs() < 1e-9).unwrap();
+    node.pose.position.x
+}
+
+/// Between its two limit loads the arch is stable on either side. From rest a solve finds the near side; from the shape of a snapped arch it has to
+/// find the far one, which the path by arc length knows.
+#[test]
+fn a_sweep_that_starts_from_the_shape_before_stays_on_its_branch() {
+    let pushed =
+        |load: f64| arch().with_point_load(0.5, DeadWrench::force(vector![load, 0.0, 0.0]).unwrap()).unwrap();
+    let options =
+        PathOptions { factors: [-200.0, 60.0], longest_step: 0.5, first_step: 0.2, ..PathOptions::default() };
+    let path = solver().trace(&pushed(1.0), &options).unwrap();
+    let limits: Vec<_> = path
+        .events
+        .iter()
+        .filter(|e| e.kind == PathEventKind::LimitPoint)
+        .map(|e| e.state.load_factor)
+        .collect();
+    let between = |load: f64| load < limits[0] && load > limits[1];
+    let far = path.points.iter().rev().find(|point| between(point.load_factor)).unwrap();
+    let (load, there) = (far.load_factor, crown(&far.solution));
+    for statics in [solver(), Statics::to(1e-8)] {
+        let from_rest = statics.solve(&pushed(load)).unwrap();
+        let snapped = statics.solve(&pushed(60.0)).unwrap();
+        let back = statics.solve_from(&pushed(load), &snapped).unwrap();
+        assert_eq!(back.report().stability, Stability::Index { unstable: 0, neutral: 0 });
+        assert!((crown(&back) - there).abs() < 1e-6, "{} and {there}", crown(&back));
+        assert!((crown(&from_rest) - there).abs() > 0.05, "{} and {there}", crown(&from_rest));
+    }
+}
+
+#[test]
+fn the_shape_of_a_rod_of_another_length_is_no_start() {
+    let section = || Stiffness::diagonal([50.0, 1.0, 50.0, 4e3, 4e3, 1.2e3]).unwrap();
+    let rod = |length: f64| Rod::clamped(Body::new(length, section()).unwrap(), Pose::identity());
+    let longer = solver().solve(&rod(1.5)).unwrap();
+    let failure = solver().solve_from(&rod(1.0), &longer).unwrap_err();
+    assert!(matches!(failure.reason, Reason::Options(_)));
+    let text = failure.to_string();
+    assert!(text.contains("length of the rod of the earlier solution") && text.contains("1.5"), "{text}");
 }

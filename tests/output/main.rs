@@ -100,8 +100,13 @@ fn an_integral_over_a_rod_with_a_joint_counts_its_elements_alone() {
 #[cfg(feature = "serde")]
 mod json {
     use super::solved;
+    use hyperrod::load::Gravity;
+    use hyperrod::material::NeoHookean;
+    use hyperrod::section::{Circle, Section};
+    use hyperrod::solve::dynamics::{Dynamics, Frame, Scene, Start};
     use hyperrod::solve::{Node, Report};
-    use hyperrod::{Pose, Strain, Twist, Wrench};
+    use hyperrod::{Body, Pose, Rod, Strain, Twist, Wrench};
+    use nalgebra::vector;
 
     /// With every bit kept by the format (`float_roundtrip`), what is read is what was written.
     #[test]
@@ -127,6 +132,25 @@ mod json {
         assert_eq!(serde_json::from_str::<Twist>(&serde_json::to_string(&xi).unwrap()).unwrap(), xi);
         assert!(serde_json::from_str::<Strain>("{\"angular\":[1,2]}").is_err());
         assert!(serde_json::from_str::<Wrench>("{\"moment\":[1,2,3],\"force\":[4,5,6]}").is_ok());
+    }
+
+    #[test]
+    fn a_frame_of_a_rod_in_motion_is_read_as_it_was_written() {
+        let law = NeoHookean::new(50e3, 50e3).unwrap();
+        let section = Section::new(Circle::new(5e-3), law).unwrap();
+        let body = Body::new(0.2, section).unwrap().with_density(1000.0).unwrap();
+        let rod =
+            Rod::clamped(body, Pose::identity()).with_load(Gravity::new(vector![9.81, 0.0, 0.0]).unwrap());
+        let scene = Scene::new(&rod);
+        let dynamics = Dynamics { elements: 4, ..Dynamics::default() };
+        let mut stepper = dynamics.start(&scene, &Start::at_rest()).unwrap();
+        stepper.step_toward(0.01).unwrap();
+        let frame = stepper.frame().unwrap();
+        assert!(frame.linear_momentum.norm() > 1e-6);
+        let text = serde_json::to_string(&frame).unwrap();
+        assert_eq!(serde_json::from_str::<Frame>(&text).unwrap(), frame);
+        let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(value["linear_momentum"][0], frame.linear_momentum.x);
     }
 
     #[test]

@@ -10,6 +10,7 @@ use crate::rod::adjoint::brought;
 
 /// A node of a rod in motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MovingNode {
     /// Arc length s, m.
     pub s: f64,
@@ -23,6 +24,7 @@ pub struct MovingNode {
 
 /// A Gauss stage of a rod in motion, where its unknowns are.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MovingStage {
     /// Arc length s, m.
     pub s: f64,
@@ -42,6 +44,7 @@ pub struct MovingStage {
 
 /// Where the energy of a rod in motion is, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Energies {
     /// ½ ∫ηᵀ M η ds.
     pub kinetic: f64,
@@ -65,6 +68,7 @@ impl Energies {
 
 /// A rod in motion at one instant, described.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Frame {
     /// Time, s.
     pub time: f64,
@@ -75,8 +79,10 @@ pub struct Frame {
     /// Energies.
     pub energies: Energies,
     /// Linear momentum in space, kg m/s.
+    #[cfg_attr(feature = "serde", serde(with = "crate::lie::serialize::vector"))]
     pub linear_momentum: Vector3<f64>,
     /// Angular momentum in space about its origin, kg m²/s.
+    #[cfg_attr(feature = "serde", serde(with = "crate::lie::serialize::vector"))]
     pub angular_momentum: Vector3<f64>,
 }
 

@@ -41,7 +41,7 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
                 // the answer on this mesh was of no use
                 return self.climb_on(&mesh, None).ok_or_else(|| self.with_report(failure));
             }
-            match self.solve(&mesh, Unknowns::at_rest(&mesh)) {
+            match self.solve_first(&mesh) {
                 Ok(outcome) => return self.stay(mesh, outcome),
                 Err(failure) => {
                     failed.get_or_insert((mesh, failure));
@@ -53,6 +53,16 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
             return Err(Box::new(Failure { reason, report: self.report.clone(), last: None }));
         };
         self.climb_on(&mesh, None).ok_or_else(|| self.with_report(failure))
+    }
+
+    /// From the shape of the earlier solution where there is one, otherwise or failing that from rest.
+    fn solve_first(&mut self, mesh: &Mesh<'r, B, S>) -> Result<Outcome<S>, Box<Failure>> {
+        if let Some(earlier) = self.earlier
+            && let Ok(outcome) = self.solve(mesh, Unknowns::of_earlier(mesh, earlier))
+        {
+            return Ok(outcome);
+        }
+        self.solve(mesh, Unknowns::at_rest(mesh))
     }
 
     /// An equilibrium if it stays, or a stable one.
