@@ -48,12 +48,9 @@ pub fn draw(quick: bool, picture: &Path) -> Outcome {
         chart = chart.line(name, part.iter().map(place));
     }
     let limits = path.events.iter().filter(|e| e.kind == PathEventKind::LimitPoint);
-    let forks = path.events.iter().filter(|e| e.kind == PathEventKind::Bifurcation);
-    chart = chart.marks("limit points", limits.map(|event| place(&event.state)));
-    if forks.clone().next().is_some() {
-        chart = chart.marks("bifurcations", forks.map(|event| place(&event.state)));
-    }
-    chart.save(&picture.with_file_name("snapping_arch_path.svg"))?;
+    chart
+        .marks("limit points", limits.map(|event| place(&event.state)))
+        .save(&picture.with_file_name("snapping_arch_path.svg"))?;
 
     let first = path.events.iter().find(|e| e.kind == PathEventKind::LimitPoint);
     let first = first.ok_or("the arch does not snap")?;
