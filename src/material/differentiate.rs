@@ -162,24 +162,24 @@ pub(super) fn isotropic_response<M: Isotropic + ?Sized, L: Lane, O: Level>(
     match O::REQUEST {
         Request::Energy => {
             let i = Invariants::from_shear_and_stretch(Jet::<L, 0, 0>::constant(shear), Jet::constant(e));
-            FibreResponse::energy_only(law.energy_density(&i, &fibre.fixed_point()).value)
+            FibreResponse::energy_only(law.evaluate(&i, &fibre.fixed_point()).value)
         }
         Request::Wrench => {
             let (s, e) = (Jet::<L, 2, 0>::variable(shear, 0), Jet::variable(e, 1));
-            let u = law.energy_density(&Invariants::from_shear_and_stretch(s, e), &fibre.fixed_point());
+            let u = law.evaluate(&Invariants::from_shear_and_stretch(s, e), &fibre.fixed_point());
             let [u_s, u_e] = u.gradient;
             FibreResponse { stress: [two_a * u_s, two_b * u_s, u_e], ..FibreResponse::energy_only(u.value) }
         }
         Request::Tangent => {
             let (s, e) = (Jet::<L, 2, 3>::variable(shear, 0), Jet::variable(e, 1));
-            let u = law.energy_density(&Invariants::from_shear_and_stretch(s, e), &fibre.fixed_point());
+            let u = law.evaluate(&Invariants::from_shear_and_stretch(s, e), &fibre.fixed_point());
             chain_through_shear(u.value, u.gradient, u.hessian, [two_a, two_b])
         }
         Request::Rate => {
             let [da, db, de] = fibre.gamma_rate;
             let s = Jet::<L, 3, 6>::variable(shear, 0).with_slope(2, two_a.mul_add(da, two_b * db));
             let e = Jet::variable(e, 1).with_slope(2, de);
-            let u = law.energy_density(&Invariants::from_shear_and_stretch(s, e), &fibre.moving_point());
+            let u = law.evaluate(&Invariants::from_shear_and_stretch(s, e), &fibre.moving_point());
             let ([u_s, u_e, _], [ss, se, s_rate, ee, e_rate, _]) = (u.gradient, u.hessian);
             let mut out = chain_through_shear(u.value, [u_s, u_e], [ss, se, ee], [two_a, two_b]);
             out.stress_rate =

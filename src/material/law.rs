@@ -7,7 +7,7 @@ use super::stress_free::WithoutPressure;
 use super::task::Task;
 use crate::error::Result;
 use crate::lie::Strain;
-use crate::scalar::{Lane, Scalar};
+use crate::scalar::{Jet, Lane, Scalar};
 
 /// An energy density that depends on the invariants of the deformation alone: u(I₁−3, I₂−3, J−1), J/m³.
 ///
@@ -21,6 +21,7 @@ use crate::scalar::{Lane, Scalar};
 /// struct Rubber { c1: f64, c2: f64 }
 ///
 /// impl Isotropic for Rubber {
+///     #[inline(always)]
 ///     fn energy_density<D: Scalar>(&self, i: &Invariants<D>, _at: &Point<D>) -> D {
 ///         i.i1() * self.c1 + i.i2() * self.c2
 ///     }
@@ -28,6 +29,9 @@ use crate::scalar::{Lane, Scalar};
 /// ```
 pub trait Isotropic: Send + Sync {
     /// The strain energy per reference volume, J/m³.
+    ///
+    /// **Mark it `#[inline(always)]`**, and functions of your own that it calls: it then runs on the vector registers of the machine. A function that is
+    /// called and not inlined is compiled for the oldest machine there is, and is more than ten times slower.
     fn energy_density<D: Scalar>(&self, invariants: &Invariants<D>, at: &Point<D>) -> D;
 
     /// The degree of the energy density as a polynomial in the strain, and in x and y for a law graded over the section; `None` where it
@@ -46,12 +50,23 @@ pub trait Isotropic: Send + Sync {
         "where the energy density is finite"
     }
 
-    /// The energy density with the pressure taken off that the law has at rest, u − p(J−1), with p = ∂u/∂J at rest.
-    ///
-    /// Override it where the difference can be written without cancellation.
-    fn stress_free_energy_density<D: Scalar>(&self, invariants: &Invariants<D>, at: &Point<D>) -> D {
-        let rest = Point { x: at.x.re(), y: at.y.re(), s: at.s.re() };
-        self.energy_density(invariants, at) - invariants.j() * reference_pressure(self, &rest)
+    /// The energy density with the pressure taken off that the law has at rest, u − p(J−1), with p = ∂u/∂J at rest, where it can be written without
+    /// cancellation; `None`, the default, where the difference is to be taken. [`ReferencePressure`](super::ReferencePressure) asks for it.
+    #[inline(always)]
+    fn stress_free_energy_density<D: Scalar>(&self, invariants: &Invariants<D>, at: &Point<D>) -> Option<D> {
+        let _ = (invariants, at);
+        None
+    }
+
+    /// The energy density in the numbers of the engine. The library's business.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn evaluate<L: Lane, const N: usize, const M: usize>(
+        &self,
+        invariants: &Invariants<Jet<L, N, M>>,
+        at: &Point<Jet<L, N, M>>,
+    ) -> Jet<L, N, M> {
+        self.energy_density(invariants, at)
     }
 
     /// The sums over a section. The library's business: its own laws have it compiled with it (`compiled_here`).
@@ -73,12 +88,6 @@ pub trait Isotropic: Send + Sync {
     }
 }
 
-/// ∂u/∂J at rest, Pa, by a dual number.
-fn reference_pressure<L: Isotropic + ?Sized>(law: &L, at: &Point) -> f64 {
-    let e = num_dual::Dual64::from_re(0.0).derivative();
-    law.energy_density(&Invariants::from_shear_and_stretch(num_dual::Dual64::from_re(0.0), e), &at.cast()).eps
-}
-
 /// An energy density of the deformation gradient at a point: u(F), J/m³.
 ///
 /// Three variables are differentiated, the third column of F − I.
@@ -91,6 +100,7 @@ fn reference_pressure<L: Isotropic + ?Sized>(law: &L, at: &Point) -> f64 {
 /// struct Graded { young: f64, h: f64 }
 ///
 /// impl Local for Graded {
+///     #[inline(always)]
 ///     fn energy_density<D: Scalar>(&self, f: &Deformation<D>, at: &Point<D>) -> D {
 ///         let stretch = f.gamma().z;
 ///         stretch * stretch * (at.y / self.h + 1.0) * (0.5 * self.young)
@@ -99,6 +109,9 @@ fn reference_pressure<L: Isotropic + ?Sized>(law: &L, at: &Point) -> f64 {
 /// ```
 pub trait Local: Send + Sync {
     /// The strain energy per reference volume, J/m³.
+    ///
+    /// **Mark it `#[inline(always)]`**, and functions of your own that it calls: it then runs on the vector registers of the machine. A function that is
+    /// called and not inlined is compiled for the oldest machine there is, and is more than ten times slower.
     fn energy_density<D: Scalar>(&self, deformation: &Deformation<D>, at: &Point<D>) -> D;
 
     /// The degree of the energy density as a polynomial in the strain, and in x and y for a law graded over the section; `None` where it
@@ -187,6 +200,7 @@ impl<M: Isotropic> Local for M {
 /// struct Stretch { young: f64 }
 ///
 /// impl Sectional for Stretch {
+///     #[inline(always)]
 ///     fn energy_density<D: Scalar>(&self, strain: &Strain<D>, at: &Point<D>) -> D {
 ///         let e = strain.linear.z + strain.angular.x * at.y - strain.angular.y * at.x;
 ///         e * e * (0.5 * self.young)
@@ -195,6 +209,9 @@ impl<M: Isotropic> Local for M {
 /// ```
 pub trait Sectional: Send + Sync {
     /// The strain energy per reference area of section and length of rod, J/m³.
+    ///
+    /// **Mark it `#[inline(always)]`**, and functions of your own that it calls: it then runs on the vector registers of the machine. A function that is
+    /// called and not inlined is compiled for the oldest machine there is, and is more than ten times slower.
     fn energy_density<D: Scalar>(&self, strain: &Strain<D>, at: &Point<D>) -> D;
 
     /// The degree of the energy density as a polynomial in the strain, and in x and y for a law graded over the section; `None` where it

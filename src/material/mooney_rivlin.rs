@@ -73,8 +73,8 @@ impl Isotropic for MooneyRivlin {
     }
 
     #[inline(always)]
-    fn stress_free_energy_density<D: Scalar>(&self, i: &Invariants<D>, _at: &Point<D>) -> D {
-        i.i1_excess() * self.c1 + i.i2_excess() * self.c2
+    fn stress_free_energy_density<D: Scalar>(&self, i: &Invariants<D>, _at: &Point<D>) -> Option<D> {
+        Some(i.i1_excess() * self.c1 + i.i2_excess() * self.c2)
     }
 
     compiled_here!(perform);

@@ -98,10 +98,10 @@ impl Isotropic for Polynomial {
     }
 
     #[inline(always)]
-    fn stress_free_energy_density<D: Scalar>(&self, i: &Invariants<D>, _at: &Point<D>) -> D {
+    fn stress_free_energy_density<D: Scalar>(&self, i: &Invariants<D>, _at: &Point<D>) -> Option<D> {
         let table = &self.table;
         let linear = i.i1_excess() * table.c10() + i.i2_excess() * table.c01();
-        linear + table.higher(i.i1(), i.i2()) + table.volumetric(i.j())
+        Some(linear + table.higher(i.i1(), i.i2()) + table.volumetric(i.j()))
     }
 
     fn domain(&self) -> &'static str {

@@ -1,10 +1,12 @@
+use num_dual::Dual;
+
 use super::kinematics::{Invariants, Point};
 use super::law::{Isotropic, Material};
 use super::response::{Points, Request, Response, Station};
 use super::task::Task;
 use crate::error::Result;
 use crate::lie::Strain;
-use crate::scalar::Scalar;
+use crate::scalar::{Jet, Lane, Scalar};
 
 /// Any material with the stress taken off that it has at rest: U − Ψ(0)·Δξ.
 ///
@@ -67,7 +69,16 @@ pub struct ReferencePressure<L>(pub L);
 impl<L: Isotropic> Isotropic for ReferencePressure<L> {
     #[inline(always)]
     fn energy_density<D: Scalar>(&self, invariants: &Invariants<D>, at: &Point<D>) -> D {
-        self.0.stress_free_energy_density(invariants, at)
+        energy_density(&self.0, invariants, at)
+    }
+
+    #[inline(always)]
+    fn evaluate<N: Lane, const V: usize, const H: usize>(
+        &self,
+        invariants: &Invariants<Jet<N, V, H>>,
+        at: &Point<Jet<N, V, H>>,
+    ) -> Jet<N, V, H> {
+        evaluate(&self.0, invariants, at)
     }
 
     fn perform(&self, task: &mut Task<'_>) -> Result<()> {
@@ -93,10 +104,64 @@ pub(super) struct WithoutPressure<'a, L>(pub(super) &'a L);
 impl<L: Isotropic> Isotropic for WithoutPressure<'_, L> {
     #[inline(always)]
     fn energy_density<D: Scalar>(&self, invariants: &Invariants<D>, at: &Point<D>) -> D {
-        self.0.stress_free_energy_density(invariants, at)
+        energy_density(self.0, invariants, at)
+    }
+
+    #[inline(always)]
+    fn evaluate<N: Lane, const V: usize, const H: usize>(
+        &self,
+        invariants: &Invariants<Jet<N, V, H>>,
+        at: &Point<Jet<N, V, H>>,
+    ) -> Jet<N, V, H> {
+        evaluate(self.0, invariants, at)
     }
 
     fn domain(&self) -> &'static str {
         self.0.domain()
     }
+}
+
+/// u − p(J−1), with p = ∂u/∂J at rest by one more dual part.
+#[inline(always)]
+fn energy_density<L: Isotropic, D: Scalar>(law: &L, i: &Invariants<D>, at: &Point<D>) -> D {
+    if let Some(free) = law.stress_free_energy_density(i, at) {
+        return free;
+    }
+    let zero = Dual::from_re(D::zero());
+    let rest = Invariants::from_shear_and_stretch(zero, zero.derivative());
+    let place = Point { x: Dual::from_re(at.x), y: Dual::from_re(at.y), s: Dual::from_re(at.s) };
+    law.energy_density(i, at) - i.j() * law.energy_density(&rest, &place).eps
+}
+
+/// As [`energy_density`], in the numbers of the engine: p by a jet of its own.
+#[inline(always)]
+fn evaluate<I: Isotropic, L: Lane, const N: usize, const M: usize>(
+    law: &I,
+    i: &Invariants<Jet<L, N, M>>,
+    at: &Point<Jet<L, N, M>>,
+) -> Jet<L, N, M> {
+    match law.stress_free_energy_density(i, at) {
+        Some(free) => free,
+        None => law.evaluate(i, at) - i.j() * pressure(law, at),
+    }
+}
+
+/// ∂u/∂J at rest, at points that move with the last variable alone, as those of the engine do.
+#[inline(always)]
+fn pressure<I: Isotropic, L: Lane, const N: usize, const M: usize>(
+    law: &I,
+    at: &Point<Jet<L, N, M>>,
+) -> Jet<L, N, M> {
+    let zero = L::splat(0.0);
+    if N > 2 {
+        let e = Jet::<L, 2, 3>::variable(zero, 0);
+        let place = Point { x: at.x.along_last(), y: at.y.along_last(), s: at.s.along_last() };
+        let u = law.evaluate(&Invariants::from_shear_and_stretch(Jet::constant(zero), e), &place);
+        return Jet::constant(u.gradient[0]).with_slope(N - 1, u.hessian[1]);
+    }
+    let e = Jet::<L, 1, 0>::variable(zero, 0);
+    let place =
+        Point { x: Jet::constant(at.x.value), y: Jet::constant(at.y.value), s: Jet::constant(at.s.value) };
+    let u = law.evaluate(&Invariants::from_shear_and_stretch(Jet::constant(zero), e), &place);
+    Jet::constant(u.gradient[0])
 }

@@ -4,4 +4,5 @@
 mod batch;
 mod branches;
 mod oracle;
+mod pressure;
 mod quadratic;

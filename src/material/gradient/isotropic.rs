@@ -111,12 +111,12 @@ pub(in crate::material) fn isotropic_gradient_response<M: Isotropic + ?Sized, L:
     if O::REQUEST < Request::Rate {
         let i =
             Invariants::from_excess(Jet::<L, 3, 6>::variable(a, 0), Jet::variable(b, 1), Jet::variable(j, 2));
-        let u = law.energy_density(&i, &site.fixed_point());
+        let u = law.evaluate(&i, &site.fixed_point());
         return chain(&kinematics, u.value, &u.gradient, &u.hessian);
     }
     let i =
         Invariants::from_excess(Jet::<L, 4, 10>::variable(a, 0), Jet::variable(b, 1), Jet::variable(j, 2));
-    let u = law.energy_density(&i, &site.moving_point());
+    let u = law.evaluate(&i, &site.moving_point());
     let ([u_a, u_b, u_j, _], h) = (u.gradient, u.hessian);
     let second = [h[0], h[1], h[2], h[4], h[5], h[7]];
     let mut out = chain(&kinematics, u.value, &[u_a, u_b, u_j], &second);

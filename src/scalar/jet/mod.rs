@@ -90,6 +90,13 @@ impl<L: Lane, const N: usize, const M: usize> Jet<L, N, M> {
         self
     }
 
+    /// The value, as it moves with the last variable: as the second of two.
+    #[inline(always)]
+    pub(crate) fn along_last(self) -> Jet<L, 2, 3> {
+        let fixed = Jet::constant(self.value);
+        if N > 0 && has(self.first, N - 1) { fixed.with_slope(1, self.gradient[N - 1]) } else { fixed }
+    }
+
     /// f(self), from f, f′ and f″ at the value.
     #[inline(always)]
     pub(crate) fn chain(self, f0: L, f1: L, f2: L) -> Self {
