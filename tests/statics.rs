@@ -16,22 +16,8 @@ use reference::{data, number, static_cases};
 const BOUND: f64 = 1e-9;
 
 const FINE: [Statics; 2] = [
-    Statics {
-        elements: 256,
-        order: Order::Four,
-        tolerance: 1e-9,
-        max_iterations: 50,
-        accuracy: None,
-        accept_unstable: false,
-    },
-    Statics {
-        elements: 64,
-        order: Order::Six,
-        tolerance: 1e-9,
-        max_iterations: 50,
-        accuracy: None,
-        accept_unstable: false,
-    },
+    Statics { elements: 256, order: Order::Four, ..Statics::DEFAULT },
+    Statics { elements: 64, order: Order::Six, ..Statics::DEFAULT },
 ];
 
 fn matches(file: &str, count: usize) {

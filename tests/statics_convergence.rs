@@ -4,11 +4,7 @@ mod reference;
 
 use hyperrod::solve::Order;
 use hyperrod::{StaticSolution, Statics};
-use reference::{StaticCase, static_cases};
-
-fn case(file: &str, id: &str) -> StaticCase {
-    static_cases(file).into_iter().find(|c| c.id == id).unwrap_or_else(|| panic!("no {id} in {file}"))
-}
+use reference::{StaticCase, static_case};
 
 fn solve(case: &StaticCase, elements: usize, order: Order) -> StaticSolution {
     Statics { elements, order, ..Default::default() }.solve(&case.rod()).unwrap()
@@ -27,10 +23,10 @@ fn observed_order(meshes: &[usize], errors: &[f64]) -> f64 {
 /// The order over four refinements, on position, rotation and wrench (and strain where the reference has one).
 fn converges(order: Order, expected: f64, margin: f64, meshes: &[usize; 5]) {
     for case in [
-        case("B1_elastica_finite.json", "B1/finite_alpha2"), // nothing but a tip force
-        case("B3_bend45.json", "B3/polar_600"),              // in space, from a curved reference
-        case("B9_heavy_elastica.json", "B9/heavy_10_beta90"), // nothing but weight
-        case("C4_nh_cantilever.json", "C4/3D"), // in space, nonlinear, weight and tip force and moment
+        static_case("B1_elastica_finite.json", "B1/finite_alpha2"), // nothing but a tip force
+        static_case("B3_bend45.json", "B3/polar_600"),              // in space, from a curved reference
+        static_case("B9_heavy_elastica.json", "B9/heavy_10_beta90"), // nothing but weight
+        static_case("C4_nh_cantilever.json", "C4/3D"), // in space, nonlinear, weight and tip force and moment
     ] {
         let errors: Vec<_> = meshes.iter().map(|&n| case.errors(&solve(&case, n, order))).collect();
         let strains = case.stations[0].dxi.is_some();
@@ -71,7 +67,7 @@ fn three_stages_converge_with_order_six() {
 #[test]
 fn newton_converges_quadratically_on_a_nonlinear_material() {
     for id in ["C4/transverse_3", "C4/transverse_8", "C4/3D"] {
-        let case = case("C4_nh_cantilever.json", id);
+        let case = static_case("C4_nh_cantilever.json", id);
         let solution = solve(&case, 32, Order::Four);
         let coarse = solution.report().iterations.iter().filter(|i| i.elements == 16);
         let steps: Vec<f64> = coarse.filter(|i| i.fraction == 1.0).map(|i| i.step).collect();
@@ -105,7 +101,7 @@ fn the_error_estimate_is_within_a_factor_of_three_of_the_error() {
         ("C4_nh_cantilever.json", "C4/transverse_8"),
         ("C4_nh_cantilever.json", "C4/3D"),
     ] {
-        let case = case(file, id);
+        let case = static_case(file, id);
         let exact = solve(&case, 256, Order::Six);
         for (order, elements) in [
             (Order::Two, 32),

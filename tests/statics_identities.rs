@@ -10,21 +10,10 @@ use hyperrod::solve::Order;
 use hyperrod::{Body, Pose, Rod, StaticSolution, Statics, Strain, Twist, Wrench};
 use nalgebra::{Matrix3, Vector3, vector};
 use num_dual::Dual64;
-use reference::{StaticCase, static_cases};
+use reference::{StaticCase, static_case};
 
 /// Discretisation errors of 1e-12 and less on the rods below.
-const FINE: Statics = Statics {
-    elements: 64,
-    order: Order::Six,
-    tolerance: 1e-9,
-    max_iterations: 50,
-    accuracy: None,
-    accept_unstable: false,
-};
-
-fn case(file: &str, id: &str) -> StaticCase {
-    static_cases(file).into_iter().find(|c| c.id == id).unwrap_or_else(|| panic!("no {id} in {file}"))
-}
+const FINE: Statics = Statics { elements: 64, order: Order::Six, ..Statics::DEFAULT };
 
 /// ∫ over the nodes by Romberg's rule: trapezoids of all nodes, of every second one and so on, extrapolated.
 fn romberg(values: &[f64], length: f64) -> f64 {
@@ -49,7 +38,7 @@ fn the_strain_energy_of_a_linear_rod_is_half_of_strain_times_stiffness_times_str
         ("B3_bend45.json", "B3/polar_600"),
         ("B9_heavy_elastica.json", "B9/heavy_10_beta45"),
     ] {
-        let case = case(file, id);
+        let case = static_case(file, id);
         let k = case.k_diag.unwrap();
         let solution = Statics { elements: 256, ..FINE }.solve(&case.rod()).unwrap();
         let density = solution.nodes().iter().map(|node| {
@@ -81,7 +70,7 @@ fn the_strain_energy_is_the_work_of_slowly_growing_loads() {
     for (file, id) in
         [("C4_nh_cantilever.json", "C4/transverse_3"), ("B9_heavy_elastica.json", "B9/heavy_10_beta90")]
     {
-        let full = case(file, id);
+        let full = static_case(file, id);
         let solve = |factor: f64| -> StaticSolution {
             FINE.solve(&scaled(&full, factor).rod_with_degree(24)).unwrap()
         };
@@ -97,7 +86,7 @@ fn the_strain_energy_is_the_work_of_slowly_growing_loads() {
 /// Castigliano: d(U + V)/dP = ∂V/∂P = −(position of the tip), at equilibrium; by five-point differences.
 #[test]
 fn the_derivative_of_the_energy_by_a_dead_force_is_the_position_of_the_tip() {
-    let full = case("C4_nh_cantilever.json", "C4/3D");
+    let full = static_case("C4_nh_cantilever.json", "C4/3D");
     let solve = |force: Vector3<f64>| {
         let case = StaticCase { tip_force_dead: force.into(), tip_moment_dead: [0.0; 3], ..full.clone() };
         FINE.solve(&case.rod_with_degree(24)).unwrap()

@@ -56,6 +56,22 @@ pub fn shape(name: &str) -> Box<dyn Shape> {
     }
 }
 
+/// The rung that the balance rule names for a strain, the degree of the warping that it brings and one more in the plane; and what Ψ is to be within:
+/// 5e-2 where corners at 86° a side are slow for polynomials.
+pub fn rung(section: &str, strain: &str) -> ((usize, usize), f64) {
+    match (section, strain) {
+        (_, "rest" | "stretch+0.5" | "stretch-0.3") => ((1, 0), 1e-10),
+        ("circle", "twist0.5" | "twist1.5") => ((3, 0), 1e-3),
+        ("ellipse", "twist0.5") => ((5, 4), 1e-3),
+        ("ellipse", "twist1.5") => ((9, 8), 1e-3),
+        (_, "twist0.5") => ((7, 6), 1e-3),
+        (_, "twist1.5") => ((7, 6), 5e-2),
+        (_, "bend0.2") => ((4, 0), 1e-3),
+        (_, "bend0.5") => ((6, 0), 1e-3),
+        _ => ((4, 3), 1e-3),
+    }
+}
+
 /// μ = 1.
 pub fn solid(shape: Box<dyn Shape>, lambda: f64, warping: Warping) -> Outcome<Solid> {
     Ok(Relaxed::new(shape, NeoHookean::new(1.0, lambda)?)?.with_warping(warping)?)

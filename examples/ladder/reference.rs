@@ -3,24 +3,9 @@
 use hyperrod::Strain;
 use hyperrod::material::{Request, Station};
 
-use super::cases::{Case, cases};
+use super::cases::{Case, cases, rung};
 use super::figure::{Chart, Output};
 use super::{Outcome, Tally, relative, shape, solid, warping};
-
-/// The rung that the balance rule names for a strain: the degree of the warping that it brings, and one more in the plane.
-fn rung(section: &str, strain: &str) -> ((usize, usize), f64) {
-    match (section, strain) {
-        (_, "rest" | "stretch+0.5" | "stretch-0.3") => ((1, 0), 1e-3),
-        ("circle", "twist0.5" | "twist1.5") => ((3, 0), 1e-3),
-        ("ellipse", "twist0.5") => ((5, 4), 1e-3),
-        ("ellipse", "twist1.5") => ((9, 8), 1e-3),
-        (_, "twist0.5") => ((7, 6), 1e-3),
-        (_, "twist1.5") => ((7, 6), 5e-2), // corners at 86° a side: slow for polynomials
-        (_, "bend0.2") => ((4, 0), 1e-3),
-        (_, "bend0.5") => ((6, 0), 1e-3),
-        _ => ((4, 3), 1e-3),
-    }
-}
 
 fn error(case: &Case, degrees: (usize, usize)) -> Outcome<(f64, usize, usize)> {
     let section = solid(shape(&case.section), case.lambda, warping(degrees))?;

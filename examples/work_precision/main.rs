@@ -21,6 +21,7 @@ mod page;
 mod quotes;
 mod scenes;
 #[path = "../ladder/cases.rs"]
+#[allow(dead_code, reason = "other programs use the rest")]
 mod section_cases;
 mod sections;
 mod statics;

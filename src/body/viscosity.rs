@@ -1,10 +1,10 @@
 use nalgebra::Matrix6;
 
-use super::{Body, Elastic, HasMass, LineMass};
+use super::{Body, Constraint, Elastic, HasArea, HasMass, LineMass};
 use crate::error::{Error, Result};
 use crate::lie::Strain;
 use crate::material::{Reference, Request, Response};
-use crate::section::{CrossSection, Geometry};
+use crate::section::{AreaMoments, CrossSection, Geometry};
 
 /// What dynamics asks of a body about damping: a wrench V ξ̇ that adds to Ψ (Kelvin–Voigt), or none.
 pub trait Dissipative {
@@ -171,6 +171,24 @@ impl<B: Elastic, V: Send + Sync> Elastic for Viscous<B, V> {
     fn respond(&self, s: f64, strain: &Strain, request: Request) -> Result<Response> {
         self.body.respond(s, strain, request)
     }
+
+    fn respond_many(
+        &self,
+        places: &[f64],
+        strains: &[Strain],
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        self.body.respond_many(places, strains, request, out)
+    }
+
+    fn constraint(&self) -> Constraint {
+        self.body.constraint()
+    }
+
+    fn breakpoints(&self) -> Vec<f64> {
+        self.body.breakpoints()
+    }
 }
 
 impl<B: HasMass, V> HasMass for Viscous<B, V> {
@@ -180,5 +198,11 @@ impl<B: HasMass, V> HasMass for Viscous<B, V> {
 
     fn inertia(&self, s: f64) -> Result<Matrix6<f64>> {
         self.body.inertia(s)
+    }
+}
+
+impl<B: HasArea, V> HasArea for Viscous<B, V> {
+    fn area_moments(&self, s: f64) -> Result<AreaMoments> {
+        self.body.area_moments(s)
     }
 }

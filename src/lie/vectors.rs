@@ -250,6 +250,12 @@ impl<D: Scalar> Strain<D> {
         Self::new(xi.angular - reference.angular, xi.linear - reference.linear)
     }
 
+    /// The same components as a twist, which a change of ξ is.
+    #[inline]
+    pub(crate) fn as_twist(&self) -> Twist<D> {
+        Twist::new(self.angular, self.linear)
+    }
+
     /// The energy per length (or its rate) Λ·Δξ of a wrench on this strain.
     #[inline]
     pub fn pair(&self, wrench: &Wrench<D>) -> D {

@@ -41,7 +41,7 @@ pub use payload::Payload;
 
 use nalgebra::Matrix6;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::lie::{Pose, Wrench};
 
 /// A wrench with its derivative in a displacement ζ of the frame it is given in (g → g exp ζ^).
@@ -53,6 +53,33 @@ pub struct LoadWrench {
     pub tangent: Matrix6<f64>,
     /// Its potential energy (per length for a distributed load); `None` for a load that has none.
     pub potential: Option<f64>,
+}
+
+impl LoadWrench {
+    /// What no load does: nothing, with a potential of zero.
+    pub(crate) fn none() -> Self {
+        Self { wrench: Wrench::zero(), tangent: Matrix6::zeros(), potential: Some(0.0) }
+    }
+
+    /// Adds another, taken `factor` times; the sum of one that has no potential has none.
+    pub(crate) fn add_scaled(&mut self, load: &Self, factor: f64) {
+        self.wrench += load.wrench * factor;
+        for (total, load) in self.tangent.as_mut_slice().iter_mut().zip(load.tangent.as_slice()) {
+            *total += load * factor;
+        }
+        self.potential = self.potential.zip(load.potential).map(|(a, b)| a + b * factor);
+    }
+
+    /// Refuses one with a number that is not finite, by the name of what it belongs to.
+    pub(crate) fn check(&self, quantity: &'static str, s: f64) -> Result<()> {
+        // without a branch
+        let is_finite = |part: &[f64]| part.iter().fold(true, |all, v| all & (v.abs() < f64::INFINITY));
+        if is_finite(&self.wrench.to_array()) & is_finite(self.tangent.as_slice()) {
+            return Ok(());
+        }
+        let size = self.wrench.to_vector().norm() + self.tangent.norm();
+        Err(Error::InvalidAt { quantity, value: size, requirement: "finite", s })
+    }
 }
 
 /// A load per length of the reference on bodies of type `B`.

@@ -135,7 +135,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         }
         let answer = self.answer(&mesh, &fine, None);
         for outcome in [coarse, fine] {
-            outcome.state.into_iter().for_each(|state| self.buffers.recycle(state));
+            outcome.recycle(self.buffers);
         }
         answer
     }
@@ -167,15 +167,14 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
             if estimated <= accuracy {
                 let answer = self.answer(&fine.mesh, &fine.outcome, Some(&fine.defect.ends));
                 for outcome in [level.outcome, fine.outcome] {
-                    outcome.state.into_iter().for_each(|state| self.buffers.recycle(state));
+                    outcome.recycle(self.buffers);
                 }
                 return answer;
             }
             parts = cuts(&fine.defect.shares, accuracy / estimated, 2 * S, MOST_PARTS);
             predicted = estimated;
             let elements: usize = parts.iter().sum();
-            let coarse = std::mem::replace(&mut level, fine).outcome;
-            coarse.state.into_iter().for_each(|state| self.buffers.recycle(state));
+            std::mem::replace(&mut level, fine).outcome.recycle(self.buffers);
             if estimated > 0.5 * best {
                 stalls += 1;
             }
@@ -212,10 +211,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
             Err(_) => Ok(()),
         };
         self.buffers.recycle(state);
-        held.map_err(|error| {
-            let reason = Reason::Supports(error);
-            Box::new(Failure { reason, report: self.report.clone(), last: None })
-        })
+        held.map_err(|error| Failure::stateless(Reason::Supports(error), self.report.clone()))
     }
 
     /// The first mesh, from rest; a finer one where Newton's method fails on it.
@@ -302,7 +298,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
                 iteration: outcome.iterations,
                 error: Error::Singular { matrix: "tangent of the rod", s: 0.0 },
             };
-            return Err(Box::new(Failure { reason, report: self.report.clone(), last: None }));
+            return Err(Failure::stateless(reason, self.report.clone()));
         };
         Ok(describe(mesh, &outcome.unknowns.strains, state, ends, self.report.clone()))
     }

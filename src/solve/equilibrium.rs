@@ -1,11 +1,9 @@
 //! The residual of a rod on a mesh, and its linearisation, for a given set of stage strains.
 
-use nalgebra::Matrix6;
-
 use super::mesh::Mesh;
 use super::unknowns::{StageStrains, Unknowns};
 use crate::body::{Constraint, Elastic};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::lie::{Pose, Wrench};
 use crate::load::LoadWrench;
 use crate::material::{Request, Response};
@@ -70,7 +68,7 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
         // as in the configuration before, which is then overwritten: no need to clear
         into.response.resize(n, [Response::zero(); S]);
         let loaded = !self.rod.loads().is_empty();
-        into.loads.resize(if loaded { n } else { 0 }, [no_load(); S]);
+        into.loads.resize(if loaded { n } else { 0 }, [LoadWrench::none(); S]);
         for i in 0..n {
             if i % ELEMENTS == 0 {
                 let block = i..n.min(i + ELEMENTS);
@@ -165,23 +163,23 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
             match self.rod.loads() {
                 [only] if self.load_factor == 1.0 => *total = only.at(body, s, &pose)?,
                 all => {
-                    *total = no_load();
+                    *total = LoadWrench::none();
                     for load in all {
-                        add_load(total, &load.at(body, s, &pose)?, self.load_factor);
+                        total.add_scaled(&load.at(body, s, &pose)?, self.load_factor);
                     }
                 }
             }
-            check_load(&stage[k], "distributed load", s)?;
+            stage[k].check("distributed load", s)?;
         }
         Ok(())
     }
 
     fn load_on(&self, fixture: &Fixture, name: &'static str, pose: &Pose, s: f64) -> Result<LoadWrench> {
-        let mut total = no_load();
+        let mut total = LoadWrench::none();
         for load in &fixture.loads {
-            add_load(&mut total, &load.at(pose)?, self.load_factor);
+            total.add_scaled(&load.at(pose)?, self.load_factor);
         }
-        check_load(&total, name, s)?;
+        total.check(name, s)?;
         Ok(total)
     }
 
@@ -250,28 +248,6 @@ fn sum(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     a.zip(b).map(|(a, b)| a + b)
 }
 
-fn no_load() -> LoadWrench {
-    LoadWrench { wrench: Wrench::zero(), tangent: Matrix6::zeros(), potential: Some(0.0) }
-}
-
-fn add_load(total: &mut LoadWrench, load: &LoadWrench, factor: f64) {
-    total.wrench += load.wrench * factor;
-    for (total, load) in total.tangent.as_mut_slice().iter_mut().zip(load.tangent.as_slice()) {
-        *total += load * factor;
-    }
-    total.potential = sum(total.potential, load.potential.map(|p| p * factor));
-}
-
-fn check_load(load: &LoadWrench, quantity: &'static str, s: f64) -> Result<()> {
-    // without a branch
-    let is_finite = |part: &[f64]| part.iter().fold(true, |all, v| all & (v.abs() < f64::INFINITY));
-    if is_finite(&load.wrench.to_array()) & is_finite(load.tangent.as_slice()) {
-        return Ok(());
-    }
-    let size = load.wrench.to_vector().norm() + load.tangent.norm();
-    Err(Error::InvalidAt { quantity, value: size, requirement: "finite", s })
-}
-
 impl<const S: usize> Default for Configuration<S> {
     fn default() -> Self {
         Self {
@@ -283,8 +259,8 @@ impl<const S: usize> Default for Configuration<S> {
             response: Vec::new(),
             kinematics: Vec::new(),
             loads: Vec::new(),
-            base_load: no_load(),
-            tip_load: no_load(),
+            base_load: LoadWrench::none(),
+            tip_load: LoadWrench::none(),
             joints: Vec::new(),
         }
     }

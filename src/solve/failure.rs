@@ -105,6 +105,18 @@ pub struct Failure {
     pub last: Option<StaticSolution>,
 }
 
+impl Failure {
+    /// Without a state to show.
+    pub(super) fn stateless(reason: Reason, report: Report) -> Box<Self> {
+        Box::new(Self { reason, report, last: None })
+    }
+
+    /// Of what was asked for, before a solve began.
+    pub(super) fn of_options(error: Error) -> Box<Self> {
+        Self::stateless(Reason::Options(error), Report::default())
+    }
+}
+
 /// What was tried, where that was more than Newton's method.
 fn tried(report: &Report) -> String {
     if report.rungs.iter().all(|rung| *rung == Rung::Newton) {

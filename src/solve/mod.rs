@@ -1,4 +1,4 @@
-//! Solving: Newton's method for static equilibrium, the chain of linearised elements, and reports.
+//! Solving: statics by Newton's method, stability, paths of equilibria and critical loads, [dynamics], simpler models, and reports.
 //!
 //! What lives here drives the elements of [`rod`](crate::rod): when to step, how far, when to stop, and what to tell the user. It
 //! prints nothing; give a solve an observer to watch it.

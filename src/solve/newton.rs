@@ -88,6 +88,15 @@ pub(crate) struct Outcome<const S: usize> {
     pub(crate) last_step: f64,
 }
 
+impl<const S: usize> Outcome<S> {
+    /// Gives the memory of the state back.
+    pub(crate) fn recycle(self, buffers: &mut Buffers<S>) {
+        if let Some(state) = self.state {
+            buffers.recycle(state);
+        }
+    }
+}
+
 impl Newton<'_> {
     /// Iterates from the given unknowns until a full step is below the tolerance.
     pub(crate) fn solve<B: Elastic, const S: usize>(

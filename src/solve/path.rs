@@ -143,7 +143,7 @@ impl<'m, 'r, B: Elastic, const S: usize> Walker<'m, 'r, B, S> {
         let start = Unknowns::at_rest(&self.mesh);
         let mut family = RodFamily { mesh: &mut self.mesh, buffers: self.buffers };
         let traced = trace(&mut family, start, 0.0, &stride, &mut enough);
-        traced.map_err(|error| failure(Reason::Start(error)))
+        traced.map_err(|error| Failure::stateless(Reason::Start(error), Report::default()))
     }
 
     pub(super) fn path(&mut self) -> Result<EquilibriumPath, Box<Failure>> {
@@ -160,7 +160,7 @@ impl<'m, 'r, B: Elastic, const S: usize> Walker<'m, 'r, B, S> {
         let stride = self.stride();
         let mut family = RodFamily { mesh: &mut self.mesh, buffers: self.buffers };
         let branch = trace_branch(&mut family, &event.point, &mode, &stride, |_| false)
-            .map_err(|error| failure(Reason::Start(error)))?;
+            .map_err(|error| Failure::stateless(Reason::Start(error), Report::default()))?;
         Ok(Some(self.described(&branch)))
     }
 
@@ -235,8 +235,4 @@ fn kind(kind: EventKind) -> PathEventKind {
         EventKind::LimitPoint => PathEventKind::LimitPoint,
         EventKind::Bifurcation => PathEventKind::Bifurcation,
     }
-}
-
-fn failure(reason: Reason) -> Box<Failure> {
-    Box::new(Failure { reason, report: Report::default(), last: None })
 }

@@ -56,8 +56,7 @@ fn free_motions<B: Elastic, const S: usize>(
     let mut rows: Vec<Vector6<f64>> = Vec::new();
     let mut hold = |support: &Support, pose: &Pose| {
         let every = Support::clamped(*support.frame());
-        let none = LoadWrench { wrench: Default::default(), tangent: Matrix6::zeros(), potential: None };
-        let equations = every.linearised(pose, &Default::default(), &none, &[0.0; 6]);
+        let equations = every.linearised(pose, &Default::default(), &LoadWrench::none(), &[0.0; 6]);
         let map = equations.from_zeta * pose.adjoint_inverse().to_matrix();
         for (j, condition) in support.conditions().iter().enumerate() {
             if *condition != Condition::Free {

@@ -4,7 +4,7 @@ use super::chain::{Link, State};
 use crate::lie::Wrench;
 use crate::rod::condense::Transfer;
 
-/// Units that make the chain's unknowns comparable: a length for displacements, a force for wrenches.
+/// Units that make displacements and wrenches of a rod comparable: its length, and a force its bending stiffness makes of it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scale {
     pub(crate) length: f64,
@@ -25,18 +25,21 @@ impl Largest {
     }
 }
 
+/// A matrix in the units of its rows and columns.
+pub(crate) fn rescale(matrix: &Matrix6<f64>, rows: [f64; 6], columns: [f64; 6]) -> Matrix6<f64> {
+    Matrix6::from_fn(|r, c| matrix[(r, c)] * columns[c] / rows[r])
+}
+
 impl Scale {
+    /// Units of (θ, u): rotations need none.
     pub(crate) fn displacement(&self) -> [f64; 6] {
         [1.0, 1.0, 1.0, self.length, self.length, self.length]
     }
 
+    /// Units of (m, n).
     pub(crate) fn wrench(&self) -> [f64; 6] {
         let moment = self.force * self.length;
         [moment, moment, moment, self.force, self.force, self.force]
-    }
-
-    fn rescale(matrix: &Matrix6<f64>, rows: [f64; 6], columns: [f64; 6]) -> Matrix6<f64> {
-        Matrix6::from_fn(|r, c| matrix[(r, c)] * columns[c] / rows[r])
     }
 
     /// The size of a wrench in these units.
@@ -68,7 +71,7 @@ impl Scale {
         let mut link = Link { left: SMatrix::zeros(), right: SMatrix::identity(), rhs: SVector::zeros() };
         for i in 0..2 {
             for j in 0..2 {
-                let block = -Self::rescale(t[i][j], units[i], units[j]);
+                let block = -rescale(t[i][j], units[i], units[j]);
                 link.left.fixed_view_mut::<6, 6>(6 * i, 6 * j).copy_from(&block);
             }
             for r in 0..6 {

@@ -1,11 +1,11 @@
 use std::time::Instant;
 
 use super::cascade::Cascade;
-use super::failure::{Failure, Reason};
+use super::failure::Failure;
 use super::linear::Buffers;
 use super::newton::{Newton, Stop};
 use super::path::{Buckling, EquilibriumPath, PathOptions, Walker};
-use super::report::{Iteration, Report};
+use super::report::Iteration;
 use super::solution::StaticSolution;
 use super::workspace::Workspace;
 use crate::body::Elastic;
@@ -61,7 +61,7 @@ pub struct Statics {
     /// The largest number of Newton iterations on a mesh.
     pub max_iterations: usize,
     /// Whether an equilibrium that would not stay, as a column straight beyond its critical load, is an answer. If not, the solver goes on to a stable
-    /// one; [`Report::stability`] says what the answer is.
+    /// one; [`Report::stability`](super::Report::stability) says what the answer is.
     pub accept_unstable: bool,
 }
 
@@ -74,6 +74,19 @@ impl Default for Statics {
 
 /// The most elements a mesh may have.
 const MAX_ELEMENTS: usize = 1_000_000;
+
+/// What a walk along a path of equilibria finds by one of its methods, with elements of the order asked for.
+macro_rules! walk {
+    ($statics:ident, $rod:ident, $options:ident, $method:ident) => {{
+        $statics.options_are_sound()?;
+        let mut workspace = Workspace::default();
+        match $statics.order {
+            Order::Two => Walker::new($rod, $statics.elements, workspace.one(), $options).$method(),
+            Order::Four => Walker::new($rod, $statics.elements, workspace.two(), $options).$method(),
+            Order::Six => Walker::new($rod, $statics.elements, workspace.three(), $options).$method(),
+        }
+    }};
+}
 
 impl Statics {
     /// The [default](Self::default) options, for constants.
@@ -138,7 +151,7 @@ impl Statics {
         if (before - length).abs() > 1e-9 * length {
             let quantity = "length of the rod of the earlier solution";
             let error = Error::Invalid { quantity, value: before, requirement: "that of the rod" };
-            return Err(refused(error));
+            return Err(Failure::of_options(error));
         }
         self.run(&mut Workspace::default(), rod, Some(earlier), &mut |_| ())
     }
@@ -177,13 +190,7 @@ impl Statics {
         rod: &Rod<B>,
         options: &PathOptions,
     ) -> Result<EquilibriumPath, Box<Failure>> {
-        self.options_are_sound()?;
-        let mut workspace = Workspace::default();
-        match self.order {
-            Order::Two => Walker::new(rod, self.elements, workspace.one(), options).path(),
-            Order::Four => Walker::new(rod, self.elements, workspace.two(), options).path(),
-            Order::Six => Walker::new(rod, self.elements, workspace.three(), options).path(),
-        }
+        walk!(self, rod, options, path)
     }
 
     /// The path that leaves the first bifurcation, along the mode that becomes unstable there; `None` where there is none up to the largest
@@ -196,13 +203,7 @@ impl Statics {
         rod: &Rod<B>,
         options: &PathOptions,
     ) -> Result<Option<EquilibriumPath>, Box<Failure>> {
-        self.options_are_sound()?;
-        let mut workspace = Workspace::default();
-        match self.order {
-            Order::Two => Walker::new(rod, self.elements, workspace.one(), options).buckled_path(),
-            Order::Four => Walker::new(rod, self.elements, workspace.two(), options).buckled_path(),
-            Order::Six => Walker::new(rod, self.elements, workspace.three(), options).buckled_path(),
-        }
+        walk!(self, rod, options, buckled_path)
     }
 
     /// The first load at which the rod loses its stability, on the path from rest, with the modes; `None` where it keeps it up to the largest factor
@@ -233,17 +234,11 @@ impl Statics {
         rod: &Rod<B>,
         options: &PathOptions,
     ) -> Result<Option<Buckling>, Box<Failure>> {
-        self.options_are_sound()?;
-        let mut workspace = Workspace::default();
-        match self.order {
-            Order::Two => Walker::new(rod, self.elements, workspace.one(), options).buckling(),
-            Order::Four => Walker::new(rod, self.elements, workspace.two(), options).buckling(),
-            Order::Six => Walker::new(rod, self.elements, workspace.three(), options).buckling(),
-        }
+        walk!(self, rod, options, buckling)
     }
 
     fn options_are_sound(&self) -> Result<(), Box<Failure>> {
-        self.check().map_err(refused)
+        self.check().map_err(Failure::of_options)
     }
 
     fn run<B: Elastic>(
@@ -306,9 +301,4 @@ impl Statics {
             }
         }
     }
-}
-
-/// A failure before anything was tried.
-fn refused(error: Error) -> Box<Failure> {
-    Box::new(Failure { reason: Reason::Options(error), report: Report::default(), last: None })
 }

@@ -1,6 +1,6 @@
 //! A tendon of a given length: the tension that makes it so.
 
-use super::{Failure, Reason, Report, StaticSolution, Statics, Workspace};
+use super::{Failure, Reason, StaticSolution, Statics, Workspace};
 use crate::body::Body;
 use crate::error::Error;
 use crate::rod::Rod;
@@ -83,8 +83,8 @@ impl Statics {
         let mut solves = 0;
         let mut at = |tension: f64| -> Result<TendonSolution, Box<Failure>> {
             solves += 1;
-            let tendon = tendon.clone().with_tension(tension).map_err(options)?;
-            let rod = rod(tendon.clone()).map_err(options)?;
+            let tendon = tendon.clone().with_tension(tension).map_err(Failure::of_options)?;
+            let rod = rod(tendon.clone()).map_err(Failure::of_options)?;
             let solution = self.solve_in(&mut workspace, &rod)?;
             let length = tendon.length_in(rod.body(), &solution);
             Ok(TendonSolution { solution, tension, length, solves })
@@ -93,12 +93,8 @@ impl Statics {
     }
 }
 
-fn options(error: Error) -> Box<Failure> {
-    Box::new(Failure { reason: Reason::Options(error), report: Report::default(), last: None })
-}
-
 fn refused(quantity: &'static str, value: f64, requirement: &'static str) -> Box<Failure> {
-    options(Error::Invalid { quantity, value, requirement })
+    Failure::of_options(Error::Invalid { quantity, value, requirement })
 }
 
 /// The secant method from T and 1.1 T, kept between the tensions known to be too low and too high.

@@ -1,7 +1,9 @@
 use crate::cases::{beam, cases, circle, fixed, number};
-use hyperrod::body::{ViscosityMatrix, Viscous};
+use hyperrod::body::{Constraint, Dissipative, Elastic, HasArea, HasMass, ViscosityMatrix, Viscous};
+use hyperrod::material::{LinearElastic, Request, Response};
+use hyperrod::section::{CrossSection, Section, Tendon};
 use hyperrod::solve::dynamics::{Dynamics, Scene, Scheme, Start};
-use hyperrod::{Pose, Rod};
+use hyperrod::{Body, Pose, Rod, Strain};
 use nalgebra::{Matrix6, Vector6};
 use serde_json::Value;
 
@@ -73,4 +75,26 @@ fn a_damped_rod_is_stable_at_any_step() {
             assert!(last < begin * (1.0 + 1e-8), "{scheme:?} dt {dt}: {last} J of {begin} J");
         }
     }
+}
+
+/// Fixed strains, places where a tendon ends, response, mass and area are those of the body inside, to the bit.
+#[test]
+fn damping_takes_nothing_away_from_a_body() {
+    let body = || {
+        let section = Section::new(circle(0.01), LinearElastic::new(5e5, 2e5).unwrap()).unwrap();
+        let tendon = Tendon::new([0.005, 0.0], 1.0).unwrap().ending_at(0.3).unwrap();
+        let body = Body::new(0.4, section.with_actuator(tendon)).unwrap().with_density(1000.0).unwrap();
+        body.with_constraint(Constraint::kirchhoff())
+    };
+    let (bare, damped) = (body(), body().with_varying_viscosity(|s| Matrix6::identity() * s));
+    assert_eq!(damped.viscosity(0.1).unwrap(), Some(Matrix6::identity() * 0.1));
+    assert_eq!(damped.constraint(), Constraint::kirchhoff());
+    assert_eq!(damped.breakpoints(), [0.3]);
+    assert_eq!(damped.area_moments(0.1).unwrap(), bare.area_moments(0.1).unwrap());
+    assert_eq!(damped.inertia(0.1).unwrap(), bare.inertia(0.1).unwrap());
+    let (places, strains) = ([0.1, 0.35], [Strain::from_array([1.0, 2.0, 3.0, 0.1, 0.2, 0.3]); 2]);
+    let [mut of_bare, mut of_damped] = [[Response::zero(); 2]; 2];
+    bare.respond_many(&places, &strains, Request::Tangent, &mut of_bare).unwrap();
+    damped.respond_many(&places, &strains, Request::Tangent, &mut of_damped).unwrap();
+    assert_eq!(of_damped, of_bare);
 }

@@ -83,13 +83,13 @@ fn energy_is_what_was_given_less_what_was_taken() {
     assert!(errors[1] < 5e-6 && errors[1] < errors[0] / 7.0, "{errors:?}");
 }
 
-fn momenta(frame: &Frame) -> [f64; 6] {
+pub fn momenta(frame: &Frame) -> [f64; 6] {
     let (p, l) = (frame.linear_momentum, frame.angular_momentum);
     [p.x, p.y, p.z, l.x, l.y, l.z]
 }
 
-/// A rod thrown into space, spinning and bending, its energy and momenta kept by projection. The issue asks for 1e-8 per 1e4 steps and 1e-9;
-/// what is left is rounding of sums, some 1e-16 a step. The whole run of 1e5 steps goes on as this part of it: see docs/decisions/030.
+/// A rod thrown into space, spinning and bending, its energy and momenta kept by projection. What is left is rounding of sums, some 1e-16 a step.
+/// A run of 1e5 steps goes on as this part of it: see docs/decisions/030.
 #[test]
 fn a_free_rod_keeps_its_momenta_and_energy() {
     let rod = clamped(cylinder());

@@ -154,3 +154,19 @@ fn options_that_make_no_sense_are_refused() {
     let mut stepper = fixed(0.01).start(&scene, &fast).unwrap();
     assert!(stepper.step_toward(0.5).unwrap_err().to_string().contains("later"));
 }
+
+/// Oracle: a straight rod whose curvature κ̇ grows alike everywhere turns with κ̇ s and moves with ½ κ̇ s² at s. Exact on any mesh but for rounding.
+#[test]
+fn a_start_with_rates_of_strain_has_the_velocities_that_follow_from_them() {
+    let rod = clamped(cylinder());
+    let scene = Scene::new(&rod);
+    let start = Start::at_rest().with_strain_rate(|_| Strain::from_array([0.0, 3.0, 0.0, 0.0, 0.0, 0.0]));
+    for scheme in schemes() {
+        let dynamics = Dynamics { scheme, elements: 3, ..fixed(1e-3) };
+        for node in dynamics.start(&scene, &start).unwrap().frame().unwrap().nodes {
+            let exact = Twist::from_array([0.0, 3.0 * node.s, 0.0, 1.5 * node.s * node.s, 0.0, 0.0]);
+            let error = (node.velocity - exact).to_vector().amax();
+            assert!(error < 1e-13, "{scheme:?}, s = {}: {error:.1e}", node.s);
+        }
+    }
+}

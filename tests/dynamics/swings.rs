@@ -2,14 +2,14 @@
 
 use crate::cases::{beam, circle, cylinder, fixed, ramp, sideways};
 use crate::ends::at;
-use crate::energy::drift;
+use crate::energy::{drift, momenta};
 use crate::held::{LENGTH, shaken, upright};
 use hyperrod::body::Constraint;
 use hyperrod::load::{DeadWrench, Gravity, Payload};
 use hyperrod::num_dual::{Dual2_64, DualNum};
 use hyperrod::rod::{Freedom, Support};
 use hyperrod::solve::Order;
-use hyperrod::solve::dynamics::{Dynamics, Frame, Scene, Scheme, Start};
+use hyperrod::solve::dynamics::{Dynamics, Scene, Scheme, Start};
 use hyperrod::{Pose, Rod, Statics, Strain, Twist};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3, vector};
 use std::f64::consts::PI;
@@ -114,11 +114,6 @@ fn energy_is_what_was_given_less_what_was_taken_at_every_support() {
     println!("{errors:?}");
     // the work of wrenches that hold what moves comes with order 3
     assert!(errors[1] < 1e-7 && errors[1] < errors[0] / 6.0, "{errors:?}");
-}
-
-fn momenta(frame: &Frame) -> [f64; 6] {
-    let (p, l) = (frame.linear_momentum, frame.angular_momentum);
-    [p.x, p.y, p.z, l.x, l.y, l.z]
 }
 
 /// Thrown with a body at either end and one between, out of line: momenta of the whole stay.

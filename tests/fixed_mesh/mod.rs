@@ -3,11 +3,5 @@
 use hyperrod::Statics;
 use hyperrod::solve::Order;
 
-pub const STATICS: Statics = Statics {
-    elements: 64,
-    order: Order::Six,
-    tolerance: 1e-10,
-    max_iterations: 50,
-    accuracy: None,
-    accept_unstable: true,
-};
+pub const STATICS: Statics =
+    Statics { elements: 64, order: Order::Six, tolerance: 1e-10, accept_unstable: true, ..Statics::DEFAULT };

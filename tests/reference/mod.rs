@@ -65,6 +65,11 @@ pub fn static_cases(name: &str) -> Vec<StaticCase> {
     serde_json::from_value(data(name)["cases"].clone()).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
+/// One of them.
+pub fn static_case(name: &str, id: &str) -> StaticCase {
+    static_cases(name).into_iter().find(|case| case.id == id).unwrap_or_else(|| panic!("no {id} in {name}"))
+}
+
 pub fn rotation(q_wxyz: [f64; 4]) -> Matrix3<f64> {
     let [w, x, y, z] = q_wxyz;
     UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)).to_rotation_matrix().into_inner()

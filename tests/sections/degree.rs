@@ -4,7 +4,7 @@ use hyperrod::material::{MooneyRivlin, NeoHookean, ReferencePressure, Station};
 use hyperrod::section::*;
 use hyperrod::{Error, Strain, local};
 
-fn neo() -> NeoHookean {
+pub fn neo_hookean() -> NeoHookean {
     NeoHookean::new(170e3, 400e3).unwrap()
 }
 
@@ -57,7 +57,8 @@ fn a_tolerance_is_met_with_the_smallest_degree_that_does() {
         let mut last = 0;
         for tolerance in [1e-3, 1e-6, 1e-9] {
             let shape = || shapes().into_iter().find(|(n, _)| *n == name).unwrap().1;
-            let section = Section::new(shape(), neo()).unwrap().with_tolerance(tolerance, &range).unwrap();
+            let section =
+                Section::new(shape(), neo_hookean()).unwrap().with_tolerance(tolerance, &range).unwrap();
             let report = section.quadrature_report(tolerance, &range).unwrap();
             println!("{name} {tolerance:e}: {report:?}");
             assert!(report.estimated_error <= 1.1 * tolerance, "{name} {report:?}");
@@ -70,8 +71,9 @@ fn a_tolerance_is_met_with_the_smallest_degree_that_does() {
                 assert!(!report.reached, "{name}: two degrees less would do: {report:?}");
             }
 
-            let section = Section::new(shape(), neo()).unwrap().with_tolerance(tolerance, &range).unwrap();
-            let exact = Section::new(shape(), neo()).unwrap().with_degree(60).unwrap();
+            let section =
+                Section::new(shape(), neo_hookean()).unwrap().with_tolerance(tolerance, &range).unwrap();
+            let exact = Section::new(shape(), neo_hookean()).unwrap().with_degree(60).unwrap();
             for strain in [[9.0, 11.0, -14.0, 0.05, 0.1, 0.1], [-4.0, 13.0, 9.0, 0.0, -0.1, -0.15]] {
                 let respond = |section: &dyn CrossSection| {
                     section.wrench(&Station::straight(0.0), &Strain::from_array(strain)).unwrap().to_array()
@@ -88,7 +90,7 @@ fn the_default_degree_does_what_its_documentation_says() {
     for (axial, bound) in [(0.3, 1e-8), (0.5, 1e-5)] {
         let range = StrainRange { axial, ..Default::default() };
         for (name, shape) in shapes() {
-            let section = Section::new(shape, neo()).unwrap();
+            let section = Section::new(shape, neo_hookean()).unwrap();
             let report = section.quadrature_report(bound, &range).unwrap();
             println!("{name} {axial}: {report:?}");
             assert!(report.reached, "{name} {axial} {report:?}");
@@ -112,7 +114,7 @@ fn a_law_with_a_kink_is_told_that_no_degree_will_do() {
 #[test]
 fn a_range_beyond_the_law_is_refused_by_the_law() {
     let range = StrainRange { axial: 1.2, ..Default::default() };
-    let section = Section::new(Circle::new(0.01), neo()).unwrap();
+    let section = Section::new(Circle::new(0.01), neo_hookean()).unwrap();
     assert!(matches!(section.with_tolerance(1e-6, &range), Err(Error::Inadmissible { quantity: "J", .. })));
 }
 

@@ -7,12 +7,13 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use hyperrod::material::{NeoHookean, Points, Reference, Station};
+use hyperrod::material::{Points, Reference, Station};
 use hyperrod::quadrature::Rule;
 use hyperrod::section::*;
 use hyperrod::{Strain, isotropic};
 use num_dual::{Dual64, DualNum};
 
+use super::degree::neo_hookean;
 use super::direct::{self, D, Direct, Energy, constant, relative_difference};
 
 const STRAINS: [[f64; 6]; 3] = [
@@ -32,10 +33,6 @@ fn shift_x<N: DualNum<Primitive = f64> + Copy>(s: N) -> N {
 }
 fn shift_y<N: DualNum<Primitive = f64> + Copy>(s: N) -> N {
     (s * 5.0).cos() * 0.002
-}
-
-fn neo() -> NeoHookean {
-    NeoHookean::new(170e3, 400e3).unwrap()
 }
 
 fn straight(_: D) -> [D; 6] {
@@ -70,7 +67,7 @@ const N: usize = 16;
 #[test]
 fn a_tapered_tube_with_two_radii() {
     let section =
-        Section::new(Annulus::new(|s: Dual64| s * 0.01 + 0.004, |s: Dual64| taper(s) * 0.02), neo());
+        Section::new(Annulus::new(|s: Dual64| s * 0.01 + 0.004, |s: Dual64| taper(s) * 0.02), neo_hookean());
     let section = section.unwrap().with_degree(24).unwrap();
     // domain 0 < r̂ < 1 with r = Ri + r̂ (Ro − Ri): another map than the section's
     let (inner, outer) = (|s: D| s * 0.01 + 0.004, |s: D| taper(s) * 0.02);
@@ -95,7 +92,7 @@ fn a_tapered_tube_with_two_radii() {
 
 #[test]
 fn a_twisted_rectangle() {
-    let section = Section::new(Rectangle::new(0.02, 0.012).rotated(|s: Dual64| angle(s)), neo());
+    let section = Section::new(Rectangle::new(0.02, 0.012).rotated(|s: Dual64| angle(s)), neo_hookean());
     let section = section.unwrap().with_degree(24).unwrap();
     let map = |[x, y]: [f64; 2], s: D| {
         let (sin, cos) = angle(s).sin_cos();
@@ -113,7 +110,7 @@ fn a_twisted_rectangle() {
 #[test]
 fn a_shifted_ellipse_with_independent_axes() {
     let shape = Ellipse::new(|s: Dual64| taper(s) * 0.015, |s: Dual64| s * 0.01 + 0.004);
-    let section = Section::new(shape.shifted(|s: Dual64| shift_x(s), |s: Dual64| shift_y(s)), neo());
+    let section = Section::new(shape.shifted(|s: Dual64| shift_x(s), |s: Dual64| shift_y(s)), neo_hookean());
     let section = section.unwrap().with_degree(24).unwrap();
     let map =
         |[x, y]: [f64; 2], s: D| [taper(s) * 0.015 * x + shift_x(s), (s * 0.01 + 0.004) * y + shift_y(s)];
@@ -174,7 +171,7 @@ fn tapered_shifted_twisted_and_graded_at_once() {
 
 #[test]
 fn the_rate_of_a_composite_is_that_of_its_parts() {
-    let core = || Section::new(Circle::new(|s: Dual64| taper(s) * 0.005), neo()).unwrap();
+    let core = || Section::new(Circle::new(|s: Dual64| taper(s) * 0.005), neo_hookean()).unwrap();
     let sleeve = || Section::new(Annulus::new(|s: Dual64| taper(s) * 0.005, 0.01), graded()).unwrap();
     let both = Composite::new(core()).with(sleeve());
     let (at, xi) = (Station::straight(0.2), Strain::from_array(STRAINS[0]));
@@ -188,7 +185,7 @@ fn the_rate_of_a_composite_is_that_of_its_parts() {
 fn a_constant_section_has_no_rate() {
     let shape = Rectangle::new(0.02, 0.01).shifted(0.003, 0.0).rotated(0.3).scaled(1.1);
     assert!(shape.is_constant());
-    let section = Section::new(shape, neo()).unwrap();
+    let section = Section::new(shape, neo_hookean()).unwrap();
     let rate = section.wrench_rate(&Station::straight(0.1), &Strain::from_array(STRAINS[0])).unwrap();
     assert_eq!(rate.to_array(), [0.0; 6]);
 }
@@ -215,7 +212,7 @@ impl<R: Profile> Shape for Counted<R> {
 fn the_points_of_a_constant_section_are_placed_once() {
     let placed = |shape: &dyn Fn(Arc<AtomicUsize>) -> Box<dyn Shape>| {
         let count = Arc::new(AtomicUsize::new(0));
-        let section = Section::new(shape(count.clone()), neo()).unwrap();
+        let section = Section::new(shape(count.clone()), neo_hookean()).unwrap();
         for k in 0..10 {
             let at = Station::straight(0.01 * k as f64);
             section.tangent(&at, &Strain::from_array(STRAINS[0])).unwrap();

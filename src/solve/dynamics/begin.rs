@@ -17,10 +17,6 @@ use crate::rod::support::Condition;
 /// The stiffness that is left where rates are sought, (… Δt)² K.
 pub(super) const LITTLE: f64 = 1e-4;
 
-fn as_twist(strain: &Strain) -> Twist {
-    Twist::new(strain.angular, strain.linear)
-}
-
 impl<const S: usize> Present<S> {
     /// The state a motion begins with.
     pub(super) fn begin<B: Movable>(
@@ -65,7 +61,7 @@ impl<const S: usize> Present<S> {
                 (velocity, acceleration) = (mount.turned_on(&velocity), mount.turned_on(&acceleration));
             }
             let xi = grid.twists(i, &core.strain[i]);
-            let rate: [Twist; S] = std::array::from_fn(|k| as_twist(&points[k].strain_rate));
+            let rate: [Twist; S] = std::array::from_fn(|k| points[k].strain_rate.as_twist());
             core.legs[i].fill(&grid.table, &xi, grid.h(i));
             let (stage, end) = free_motion(&grid.table, grid.h(i), &xi, &rate);
             // η = Ad⁻¹ η_i + u, η̇ = Ad⁻¹ η̇_i + [Ad⁻¹ η_i, u] + u̇
@@ -110,7 +106,7 @@ impl<const S: usize> Present<S> {
             if let Some(mount) = core.between(i) {
                 node = mount.turned_on(&node);
             }
-            let rate: [Twist; S] = std::array::from_fn(|k| as_twist(&core.step[i][k]));
+            let rate: [Twist; S] = std::array::from_fn(|k| core.step[i][k].as_twist());
             let (stage, end) = core.legs[i].velocities(&core.grid.table, core.grid.h(i), &node, &rate);
             for k in 0..S {
                 points[k].pose = core.pose[i][k];

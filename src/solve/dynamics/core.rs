@@ -6,7 +6,7 @@ use super::border::Border;
 use super::factor::FactoredElement;
 use super::grid::Grid;
 use super::mount::Mount;
-use super::place::{Amplitudes, Place, none};
+use super::place::{Amplitudes, Place};
 use super::relation::{Offset, Rates, Relation};
 use super::scene::{Movable, Scene};
 use crate::error::Result;
@@ -114,7 +114,7 @@ impl<const S: usize> Core<S> {
             energy: vec![[0.0; S]; n],
             wrench: vec![[Wrench::zero(); S]; n],
             tangent: vec![[Matrix6::zeros(); S]; n],
-            load: vec![[none(); S]; n],
+            load: vec![[LoadWrench::none(); S]; n],
             force: vec![[Wrench::zero(); S]; n],
             node_wrench: vec![Wrench::zero(); n + 1],
             base_impulse: Wrench::zero(),

@@ -208,8 +208,7 @@ impl<const S: usize> FactoredElement<S> {
                 Strain::from_vector(&(self.from_node[k] * zeta))
             };
             strain[k] += moved;
-            let d = Twist::new(strain[k].angular, strain[k].linear);
-            next += self.end[k].apply(&d);
+            next += self.end[k].apply(&strain[k].as_twist());
         }
         next.to_vector()
     }

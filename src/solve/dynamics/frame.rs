@@ -98,10 +98,6 @@ impl Frame {
     }
 }
 
-fn as_twist(strain: &Strain) -> Twist {
-    Twist::new(strain.angular, strain.linear)
-}
-
 impl<const S: usize> Core<S> {
     /// The velocities of the nodes, by the kinematics of the element from the base and the rates of strain.
     pub(super) fn node_velocities(&self, mut each: impl FnMut(Twist)) {
@@ -111,7 +107,7 @@ impl<const S: usize> Core<S> {
             if let Some(mount) = self.between(i) {
                 velocity = mount.turned_on(&velocity);
             }
-            let rate: [Twist; S] = std::array::from_fn(|k| as_twist(&rate[k]));
+            let rate: [Twist; S] = std::array::from_fn(|k| rate[k].as_twist());
             (_, velocity) = legs.velocities(&self.grid.table, self.grid.h(i), &velocity, &rate);
             each(velocity);
         }

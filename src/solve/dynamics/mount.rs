@@ -4,7 +4,7 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 use num_dual::Dual2_64;
 
 use super::balance::inertia;
-use super::place::{Amplitudes, Place, none};
+use super::place::{Amplitudes, Place};
 use super::relation::{Offset, Rates, Relation};
 use super::scene::{Movable, Scene};
 use crate::error::Result;
@@ -47,7 +47,7 @@ impl Mount {
             support,
             frame: [Twist::zero(); 2],
             mass,
-            load: none(),
+            load: LoadWrench::none(),
             reaction: Wrench::zero(),
             follows: free_base || (place != Place::Base && (mass.is_some() || !support.is_free())),
             pose_before: Pose::identity(),
@@ -149,7 +149,7 @@ impl Mount {
         let impulse = *relation == Relation::Impulse;
         // a spring gives no impulse
         let support = if impulse { self.without_springs() } else { self.support };
-        let mut rows = support.linearised(pose, reaction, &none(), &support.held());
+        let mut rows = support.linearised(pose, reaction, &LoadWrench::none(), &support.held());
         if relation.is_of_rates() {
             let [_, speeds, seconds] = self.departure(pose);
             for (j, condition) in support.conditions().iter().enumerate() {
@@ -181,7 +181,7 @@ impl Mount {
     /// ∂χ/∂ζ, the derivative of all six coordinates in a displacement of the section.
     pub(super) fn coordinate_map(&self, pose: &Pose) -> Matrix6<f64> {
         let every = Support::clamped(*self.support.frame());
-        every.linearised(pose, &Wrench::zero(), &none(), &[0.0; 6]).from_zeta
+        every.linearised(pose, &Wrench::zero(), &LoadWrench::none(), &[0.0; 6]).from_zeta
     }
 }
 

@@ -5,7 +5,7 @@ use num_dual::Dual2_64;
 
 use super::scene::{Movable, Scene};
 use crate::error::{Error, Result};
-use crate::lie::{Pose, Strain, Twist, Wrench};
+use crate::lie::{Pose, Strain, Twist};
 use crate::load::LoadWrench;
 use crate::material::{Request, Response, Station};
 use crate::rod::Support;
@@ -179,14 +179,15 @@ impl<B: Movable> Scene<'_, B> {
 
     /// The load per length.
     pub(super) fn load(&self, amplitudes: &Amplitudes, s: f64, pose: &Pose) -> Result<LoadWrench> {
-        let (body, mut total) = (self.rod.body(), none());
+        let (body, mut total) = (self.rod.body(), LoadWrench::none());
         for load in self.rod.loads() {
-            add(&mut total, &load.at(body, s, pose)?, 1.0);
+            total.add_scaled(&load.at(body, s, pose)?, 1.0);
         }
         for ((load, _), &amplitude) in self.loads.iter().zip(&amplitudes.loads) {
-            add(&mut total, &load.at(body, s, pose)?, amplitude);
+            total.add_scaled(&load.at(body, s, pose)?, amplitude);
         }
-        checked(total, "distributed load", s)
+        total.check("distributed load", s)?;
+        Ok(total)
     }
 
     /// The load on one section.
@@ -196,13 +197,13 @@ impl<B: Movable> Scene<'_, B> {
         place: Place,
         pose: &Pose,
     ) -> Result<LoadWrench> {
-        let mut total = none();
+        let mut total = LoadWrench::none();
         for load in self.fixture(place).into_iter().flat_map(|fixture| &fixture.loads) {
-            add(&mut total, &load.at(pose)?, 1.0);
+            total.add_scaled(&load.at(pose)?, 1.0);
         }
         for ((at, load, _), &amplitude) in self.point_loads.iter().zip(&amplitudes.point_loads) {
             if *at == place {
-                add(&mut total, &load.at(pose)?, amplitude);
+                total.add_scaled(&load.at(pose)?, amplitude);
             }
         }
         let s = match place {
@@ -210,24 +211,7 @@ impl<B: Movable> Scene<'_, B> {
             Place::Between(s) => s,
             Place::Tip => self.rod.body().length(),
         };
-        checked(total, "load on a section", s)
+        total.check("load on a section", s)?;
+        Ok(total)
     }
-}
-
-pub(super) fn none() -> LoadWrench {
-    LoadWrench { wrench: Wrench::zero(), tangent: Matrix6::zeros(), potential: Some(0.0) }
-}
-
-fn add(total: &mut LoadWrench, load: &LoadWrench, factor: f64) {
-    total.wrench += load.wrench * factor;
-    total.tangent += load.tangent * factor;
-    total.potential = total.potential.zip(load.potential).map(|(a, b)| a + b * factor);
-}
-
-fn checked(load: LoadWrench, quantity: &'static str, s: f64) -> Result<LoadWrench> {
-    let size = load.wrench.to_vector().norm() + load.tangent.norm();
-    if size.is_finite() {
-        return Ok(load);
-    }
-    Err(Error::InvalidAt { quantity, value: size, requirement: "finite", s })
 }

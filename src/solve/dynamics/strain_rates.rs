@@ -44,7 +44,7 @@ impl<const S: usize> Core<S> {
                     self.strain_rate[i][k] = Strain::from_vector(&rates.fixed_rows::<6>(6 * k).into_owned());
                 }
             }
-            let rate: [Twist; S] = self.strain_rate[i].map(|rate| Twist::new(rate.angular, rate.linear));
+            let rate: [Twist; S] = self.strain_rate[i].map(|rate| rate.as_twist());
             (_, node) = self.legs[i].velocities(&self.grid.table, h, &node, &rate);
         }
     }

@@ -4,8 +4,7 @@ use num_dual::Dual64;
 
 use super::*;
 use crate::body::{Density, HasMass, LineMass};
-use crate::lie::Strain;
-use crate::lie::Twist;
+use crate::lie::{Strain, Twist};
 use crate::load::{DeadLoad, DeadWrench, Gravity};
 use crate::material::NeoHookean;
 use crate::rod::Rod;
@@ -16,8 +15,7 @@ use crate::section::{Circle, Linear, Section};
 use crate::solve::linear::{Buffers, kind_of_elements};
 use crate::solve::scale::Scale;
 use crate::{Body, Pose};
-use nalgebra::SVector;
-use nalgebra::{Vector3, vector};
+use nalgebra::{Matrix6, SVector, Vector3, vector};
 
 type Tapered = Body<Section<Circle<Linear>, NeoHookean>, Density>;
 

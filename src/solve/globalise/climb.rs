@@ -50,7 +50,7 @@ impl<'r, B: Elastic, const S: usize> Cascade<'r, '_, B, S> {
         }
         let Some((mesh, failure)) = failed else {
             let reason = Reason::IterationLimit { limit: 0, step: f64::NAN, tolerance: f64::NAN };
-            return Err(Box::new(Failure { reason, report: self.report.clone(), last: None }));
+            return Err(Failure::stateless(reason, self.report.clone()));
         };
         self.climb_on(&mesh, None).ok_or_else(|| self.with_report(failure))
     }

@@ -4,8 +4,7 @@ mod model;
 mod solved;
 mod suggestion;
 
-use super::failure::{Failure, Reason};
-use super::report::Report;
+use super::failure::Failure;
 use crate::body::{Constraint, Elastic};
 use crate::error::{Error, Result};
 use crate::material::Station;
@@ -129,11 +128,11 @@ impl<'r, B: Elastic> ModelLadder<'r, B> {
     ///
     /// # Errors
     /// A [`Failure`] of that solve, or of its accuracy where the mesh cannot be made fine enough to see the tolerance;
-    /// [`Reason::Options`] for a tolerance that is not positive and finite.
+    /// [`Reason::Options`](super::Reason::Options) for a tolerance that is not positive and finite.
     pub fn suggest(&self, tolerance: f64) -> Result<Suggestion, Box<Failure>> {
         if !(tolerance > 0.0 && tolerance.is_finite()) {
             let (quantity, requirement) = ("tolerance of a model", "positive and finite");
-            return Err(because(Error::Invalid { quantity, value: tolerance, requirement }));
+            return Err(Failure::of_options(Error::Invalid { quantity, value: tolerance, requirement }));
         }
         let mut solved = Solved::to(self.rod, tolerance)?;
         let mut rungs = Vec::new();
@@ -169,8 +168,4 @@ impl<'r, B: Elastic> ModelLadder<'r, B> {
         models.push(("own section".to_string(), SectionModel::Own));
         models
     }
-}
-
-fn because(error: Error) -> Box<Failure> {
-    Box::new(Failure { reason: Reason::Options(error), report: Report::default(), last: None })
 }

@@ -98,9 +98,8 @@ impl<'r, B: Elastic> Solved<'r, B> {
     /// The sections at their reference strain, at the stages.
     pub(super) fn at_rest(&self) -> Result<AtRest, Box<Failure>> {
         let places = self.mesh.stage_places(0..self.mesh.elements()).as_flattened().to_vec();
-        AtRest::of(self.mesh.rod.body(), places).map_err(|error| {
-            Box::new(Failure { reason: Reason::Start(error), report: Report::default(), last: None })
-        })
+        AtRest::of(self.mesh.rod.body(), places)
+            .map_err(|error| Failure::stateless(Reason::Start(error), Report::default()))
     }
 
     /// What a simpler model does to the answer, to first order, and the work it leaves out.

@@ -2,7 +2,7 @@
 
 use super::condition::Condition;
 use super::index::{Chain, Stop};
-use super::link::{Link, Units};
+use super::link::Link;
 use crate::body::Elastic;
 use crate::lie::Wrench;
 use crate::rod::condense::Condensed;
@@ -18,7 +18,6 @@ pub(crate) fn chain<B: Elastic, const S: usize>(
     condensed: &Condensed<S>,
     scale: &Scale,
 ) -> Option<Chain> {
-    let units = Units { length: scale.length, force: scale.force };
     let n = mesh.elements();
     let mut links = Vec::with_capacity(n);
     let mut stops = Vec::new();
@@ -32,18 +31,18 @@ pub(crate) fn chain<B: Elastic, const S: usize>(
                 end = fixed.corner.adjoint().apply_transpose(&(end - joint.load.wrench));
             } else {
                 let equations = joint_equations(mesh, j, joint);
-                let condition = Condition::of(support, &equations, &joint.applied, &units)?;
-                stops.push(Stop { node: i + 1, condition, corner: Link::corner(&fixed.corner, &units) });
+                let condition = Condition::of(support, &equations, &joint.applied, scale)?;
+                stops.push(Stop { node: i + 1, condition, corner: Link::corner(&fixed.corner, scale) });
             }
         }
-        links.push(Link::new(&condensed.transfer(i), &state.node_wrench[i], &end, &units));
+        links.push(Link::new(&condensed.transfer(i), &state.node_wrench[i], &end, scale));
     }
     let (base, tip) = (&mesh.rod.base_fixture().support, &mesh.rod.tip_fixture().support);
     let mut at_base = base_equations(mesh, state);
     // in what the support applies, −Λ_0
     at_base.from_wrench = -at_base.from_wrench;
     let applied: Wrench = -state.node_wrench[0];
-    let base = Condition::of(base, &at_base, &applied, &units)?;
-    let tip = Condition::of(tip, &tip_equations(mesh, state), &state.node_wrench[n], &units)?;
+    let base = Condition::of(base, &at_base, &applied, scale)?;
+    let tip = Condition::of(tip, &tip_equations(mesh, state), &state.node_wrench[n], scale)?;
     Some(Chain { links, stops, base, tip })
 }

@@ -1,10 +1,10 @@
 use nalgebra::{Matrix6, Vector6};
 
-use super::link::Units;
 use super::plane::Plane;
 use crate::lie::Wrench;
 use crate::rod::element::frame_change;
 use crate::rod::support::{Condition as Held, Equations, Support};
+use crate::solve::scale::Scale;
 
 /// What holds a section of the rod against small displacements, in its own frame and in units of the rod.
 #[derive(Clone, Copy, Debug)]
@@ -25,9 +25,9 @@ impl Condition {
         support: &Support,
         equations: &Equations,
         applied: &Wrench,
-        units: &Units,
+        scale: &Scale,
     ) -> Option<Self> {
-        let (zeta, momentum) = (units.zeta(), units.momentum());
+        let (zeta, momentum) = (scale.displacement(), scale.wrench());
         let half = frame_change(applied) * 0.5;
         let rows = &equations.from_wrench;
         let slope = equations.from_zeta + rows * half;
@@ -35,14 +35,14 @@ impl Condition {
         let mut directions = Matrix6::zeros();
         let mut fixed = [true; 6];
         // in units of the rod a row of ∂ζ/∂χ is a displacement divided by its unit
-        let unit = |r: usize| if r < 3 { 1.0 } else { units.length };
+        let unit = |r: usize| if r < 3 { 1.0 } else { scale.length };
         let mut basis = Matrix6::zeros();
         for j in (0..6).filter(|&j| free(j)) {
             basis.set_column(j, &Vector6::from_fn(|r, _| rows[(j, r)] * unit(j) / zeta[r]));
         }
         let triangle = orthonormalise(&mut basis, &mut directions, &mut fixed)?;
         // (R⁻ᵀ K̂ R⁻¹) with K̂_jl = slope_j t_l
-        let work = units.force * units.length;
+        let work = scale.force * scale.length;
         let energy = Matrix6::from_fn(|j, l| {
             if !(free(j) && free(l)) {
                 return 0.0;
