@@ -56,7 +56,7 @@ pub trait Isotropic: Send + Sync {
 
     /// The sums over a section. The library's business: its own laws have it compiled with it (`compiled_here`).
     #[doc(hidden)]
-    fn perform(&self, task: &mut Task<'_>) -> Result<()>
+    fn perform(&self, task: &mut Task<'_>) -> Result<Response>
     where
         Self: Sized,
     {
@@ -65,7 +65,7 @@ pub trait Isotropic: Send + Sync {
 
     /// The sums of the law with the pressure taken off that it has at rest, likewise.
     #[doc(hidden)]
-    fn perform_stress_free(&self, task: &mut Task<'_>) -> Result<()>
+    fn perform_stress_free(&self, task: &mut Task<'_>) -> Result<Response>
     where
         Self: Sized,
     {
@@ -126,7 +126,7 @@ pub trait Local: Send + Sync {
 
     /// The sums over a section. The library's business, overridden by the isotropic level.
     #[doc(hidden)]
-    fn perform(&self, task: &mut Task<'_>) -> Result<()>
+    fn perform(&self, task: &mut Task<'_>) -> Result<Response>
     where
         Self: Sized,
     {
@@ -165,7 +165,7 @@ impl<M: Isotropic> Local for M {
         isotropic_response::<Self, L, O>(self, fibre)
     }
 
-    fn perform(&self, task: &mut Task<'_>) -> Result<()> {
+    fn perform(&self, task: &mut Task<'_>) -> Result<Response> {
         Isotropic::perform(self, task)
     }
 
@@ -222,7 +222,7 @@ pub trait Sectional: Send + Sync {
 
     /// The sums over a section. The library's business, overridden by the cheaper levels.
     #[doc(hidden)]
-    fn perform(&self, task: &mut Task<'_>) -> Result<()>
+    fn perform(&self, task: &mut Task<'_>) -> Result<Response>
     where
         Self: Sized,
     {
@@ -252,7 +252,7 @@ impl<L: Local> Sectional for L {
         Local::domain(self)
     }
 
-    fn perform(&self, task: &mut Task<'_>) -> Result<()> {
+    fn perform(&self, task: &mut Task<'_>) -> Result<Response> {
         Local::perform(self, task)
     }
 }
@@ -309,7 +309,7 @@ impl<L: Sectional> Material for L {
         strain: &Strain,
         request: Request,
     ) -> Result<Response> {
-        Task::respond(Site { points, at, strain }, request, |task| self.perform(task))
+        self.perform(&mut Task::one(Site { points, at, strain }, request))
     }
 
     fn integrate_many(
@@ -319,7 +319,7 @@ impl<L: Sectional> Material for L {
         request: Request,
         out: &mut [Response],
     ) -> Result<()> {
-        self.perform(&mut Task::many(points, sites, request, out))
+        self.perform(&mut Task::many(points, sites, request, out)).map(|_| ())
     }
 
     fn polynomial_degree(&self) -> Option<usize> {

@@ -70,7 +70,7 @@ impl<L: Isotropic> Isotropic for ReferencePressure<L> {
         self.0.stress_free_energy_density(invariants, at)
     }
 
-    fn perform(&self, task: &mut Task<'_>) -> Result<()> {
+    fn perform(&self, task: &mut Task<'_>) -> Result<Response> {
         self.0.perform_stress_free(task)
     }
 
