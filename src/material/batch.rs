@@ -89,6 +89,7 @@ struct SumMany<'a, O> {
 impl<O: Level> Kernel for SumMany<'_, O> {
     /// Whether J > 0 everywhere.
     type Output = bool;
+    const ALIGNED: bool = true;
 
     #[inline(always)]
     fn run<L: Lane>(self) -> bool {

@@ -188,6 +188,7 @@ struct SumInOnePass<'a, 'b, M, O> {
 
 impl<M: Local, O: Level> Kernel for SumInOnePass<'_, '_, M, O> {
     type Output = Result<Response>;
+    const ALIGNED: bool = true;
 
     #[inline(always)]
     fn run<L: Lane>(self) -> Result<Response> {
@@ -203,6 +204,7 @@ struct Fill<'a, 'b, M, O> {
 
 impl<M: Local, O: Level> Kernel for Fill<'_, '_, M, O> {
     type Output = ();
+    const ALIGNED: bool = true;
 
     #[inline(always)]
     fn run<L: Lane>(self) {

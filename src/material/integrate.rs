@@ -127,6 +127,7 @@ struct Sum<'a, 'b, O> {
 
 impl<O: Level> Kernel for Sum<'_, '_, O> {
     type Output = Result<Response>;
+    const ALIGNED: bool = true;
 
     #[inline(always)]
     fn run<L: Lane>(self) -> Result<Response> {

@@ -50,6 +50,7 @@ struct Add<'a, M> {
 
 impl<M: Sectional> Kernel for Add<'_, M> {
     type Output = ();
+    const ALIGNED: bool = true;
 
     #[inline(always)]
     fn run<L: Lane>(self) {
