@@ -7,7 +7,7 @@ use super::differentiate::{Level, Rate, Tangent};
 use super::integrate::{Job, Site, integrate_local};
 use super::places::{Coordinate, Places};
 use super::response::{Points, Request, Response, Station};
-use super::scratch::{BLOCKS, Scratch, with_scratch};
+use super::scratch::{BLOCKS, Loan, Scratch};
 use super::span::fibre;
 use super::sums::{Block, ENTRIES, Sums, Totals};
 use super::task::one_by_one;
@@ -25,19 +25,18 @@ pub(super) fn integrate_many(
     request: Request,
     out: &mut [Response],
 ) -> Result<()> {
-    let alone = |at: &Station, strain: &Strain, totals: &mut Totals| {
-        integrate_local(law, &mut Job::new(Site { points, at, strain }, request, totals))
-    };
+    let alone =
+        |at: &Station, strain: &Strain| integrate_local(law, &Job::new(Site { points, at, strain }, request));
     if request <= Request::Wrench
         || points.rates.is_some()
         || sites.iter().any(|(at, _)| at.reference.is_curved())
     {
-        return one_by_one(sites, request, out, alone);
+        return one_by_one(sites, out, alone);
     }
     for (sites, out) in sites.chunks(MAX_LANES).zip(out.chunks_mut(MAX_LANES)) {
         let full = sites.len() == MAX_LANES && out.len() == MAX_LANES;
         if !(full && eight_at_once(law, points, sites, request, out)) {
-            one_by_one(sites, request, out, alone)?;
+            one_by_one(sites, out, alone)?;
         }
     }
     Ok(())
@@ -54,15 +53,17 @@ fn eight_at_once(
     let (strains, s) = gather(sites);
     let mut entries = [Eight::ZERO; ENTRIES];
     let batch = Batch { law, points, station: &sites[0].0, strains: &strains, s: &s, entries: &mut entries };
-    let admissible = with_scratch(|scratch| match request {
+    let mut loan = Loan::take();
+    let scratch = loan.scratch();
+    let admissible = match request {
         Request::Rate => dispatch(SumMany { batch, scratch, level: PhantomData::<Rate> }),
         _ => dispatch(SumMany { batch, scratch, level: PhantomData::<Tangent> }),
-    });
+    };
+    drop(loan);
     let mut finite = true;
     for (i, out) in out.iter_mut().enumerate() {
-        let mut totals = Totals::of_strain(i, &entries);
-        totals.judge::<f64>(request, admissible);
-        finite = finite && totals.energy().is_finite();
+        let totals = Totals::of_strain(i, &entries);
+        finite = finite && totals.judged::<f64>(request, admissible).is_finite();
         *out = totals.response(request);
     }
     finite
@@ -88,6 +89,7 @@ struct SumMany<'a, O> {
 impl<O: Level> Kernel for SumMany<'_, O> {
     /// Whether J > 0 everywhere.
     type Output = bool;
+    const ALIGNED: bool = true;
 
     #[inline(always)]
     fn run<L: Lane>(self) -> bool {

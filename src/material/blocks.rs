@@ -9,7 +9,8 @@ use super::differentiate::{Energy, Fibre, FibreResponse, Level, Rate, Tangent, W
 use super::integrate::{Job, sum_in_one_pass};
 use super::law::Local;
 use super::places::Places;
-use super::response::Request;
+use super::response::{Request, Response};
+use crate::error::Result;
 use crate::scalar::lane::{Kernel, MAX_LANES, dispatch};
 use crate::scalar::{Lane, lanes_disagreed};
 
@@ -148,12 +149,11 @@ pub trait Blocks {
     /// they are not all right.
     fn fill(&self, request: Request, blank: &mut Blank<'_>) -> bool;
 
-    /// Adds up energy, or energy and wrench, in a pass of their own, which needs no room between law and sum; whether that is done. It is not
-    /// where lanes disagreed.
-    fn sum(&self, request: Request, job: &mut Job<'_>) -> bool {
-        let _ = (request, job);
-        false
-    }
+    /// The sum of energy, or of energy and wrench: in a pass of their own, which needs no room between law and sum, where that can be.
+    ///
+    /// # Errors
+    /// Where a point is inadmissible or a sum not finite.
+    fn sum(&self, job: &Job<'_>) -> Result<Response>;
 
     /// Where the law is defined.
     fn region(&self) -> &'static str;
@@ -168,13 +168,11 @@ impl<M: Local> Blocks for M {
         lanes_disagreed()
     }
 
-    fn sum(&self, request: Request, job: &mut Job<'_>) -> bool {
-        match request {
+    fn sum(&self, job: &Job<'_>) -> Result<Response> {
+        match job.request {
             Request::Energy => dispatch(SumInOnePass { law: self, job, level: PhantomData::<Energy> }),
-            Request::Wrench => dispatch(SumInOnePass { law: self, job, level: PhantomData::<Wrench> }),
-            Request::Tangent | Request::Rate => return false,
+            _ => dispatch(SumInOnePass { law: self, job, level: PhantomData::<Wrench> }),
         }
-        !lanes_disagreed()
     }
 
     fn region(&self) -> &'static str {
@@ -184,16 +182,17 @@ impl<M: Local> Blocks for M {
 
 struct SumInOnePass<'a, 'b, M, O> {
     law: &'a M,
-    job: &'a mut Job<'b>,
+    job: &'a Job<'b>,
     level: PhantomData<O>,
 }
 
 impl<M: Local, O: Level> Kernel for SumInOnePass<'_, '_, M, O> {
-    type Output = ();
+    type Output = Result<Response>;
+    const ALIGNED: bool = true;
 
     #[inline(always)]
-    fn run<L: Lane>(self) {
-        sum_in_one_pass::<L, O, M>(self.law, self.job);
+    fn run<L: Lane>(self) -> Result<Response> {
+        sum_in_one_pass::<L, O, M>(self.law, self.job)
     }
 }
 
@@ -205,6 +204,7 @@ struct Fill<'a, 'b, M, O> {
 
 impl<M: Local, O: Level> Kernel for Fill<'_, '_, M, O> {
     type Output = ();
+    const ALIGNED: bool = true;
 
     #[inline(always)]
     fn run<L: Lane>(self) {

@@ -1,6 +1,6 @@
 use super::blocks::{Blank, Blocks, Respond, fill_registers};
 use super::differentiate::{Fibre, FibreResponse, Rate, unpack};
-use super::integrate::Site;
+use super::integrate::{Job, Site, sum_by_blocks};
 use super::kinematics::{Deformation, Invariants, Point};
 use super::law::Material;
 use super::response::{Points, Request, Response, Station};
@@ -90,6 +90,10 @@ where
         lanes_disagreed()
     }
 
+    fn sum(&self, job: &Job<'_>) -> Result<Response> {
+        sum_by_blocks(self, job)
+    }
+
     fn region(&self) -> &'static str {
         DOMAIN
     }
@@ -145,7 +149,7 @@ where
     ) -> Result<Response> {
         let law =
             Called(|f: &Deformation<LocalJet>, point: &Point<LocalJet>| (self.0)(&f.invariants(), point));
-        Task::respond(Site { points, at, strain }, request, |task| task.perform(&law))
+        Task::one(Site { points, at, strain }, request).perform(&law)
     }
 
     fn polynomial_degree(&self) -> Option<usize> {
@@ -165,7 +169,7 @@ where
         request: Request,
     ) -> Result<Response> {
         let law = Called(&self.0);
-        Task::respond(Site { points, at, strain }, request, |task| task.perform(&law))
+        Task::one(Site { points, at, strain }, request).perform(&law)
     }
 
     fn polynomial_degree(&self) -> Option<usize> {
@@ -185,7 +189,7 @@ where
         request: Request,
     ) -> Result<Response> {
         let law = CalledWithStrain(&self.0);
-        Task::respond(Site { points, at, strain }, request, |task| task.perform_sectional(&law))
+        Task::one(Site { points, at, strain }, request).perform_sectional(&law)
     }
 
     fn polynomial_degree(&self) -> Option<usize> {

@@ -8,19 +8,28 @@
 macro_rules! compiled_here {
     (perform) => {
         #[inline(never)]
-        fn perform(&self, task: &mut crate::material::Task<'_>) -> crate::error::Result<()> {
+        fn perform(
+            &self,
+            task: &mut crate::material::Task<'_>,
+        ) -> crate::error::Result<crate::material::Response> {
             task.perform(self)
         }
     };
     (perform_stress_free) => {
         #[inline(never)]
-        fn perform_stress_free(&self, task: &mut crate::material::Task<'_>) -> crate::error::Result<()> {
+        fn perform_stress_free(
+            &self,
+            task: &mut crate::material::Task<'_>,
+        ) -> crate::error::Result<crate::material::Response> {
             task.perform(&crate::material::stress_free::WithoutPressure(self))
         }
     };
     (perform_sectional) => {
         #[inline(never)]
-        fn perform(&self, task: &mut crate::material::Task<'_>) -> crate::error::Result<()> {
+        fn perform(
+            &self,
+            task: &mut crate::material::Task<'_>,
+        ) -> crate::error::Result<crate::material::Response> {
             task.perform_sectional(self)
         }
     };

@@ -1,19 +1,13 @@
 //! What made a sum inadmissible or not finite, and where.
 
 use super::integrate::Site;
-use super::response::{Points, Station, check_strain};
+use super::response::{Points, Response, Station, check_strain};
 use super::span::{column, volume};
-use super::sums::Totals;
-use crate::error::Error;
+use crate::error::{Error, Result};
 
-/// Finds what made a sum inadmissible or not finite, and where: by the same sum over one point at a time.
+/// Finds what made a sum inadmissible or not finite, and where: by the same sum over one point at a time, which fails with [`not_finite`].
 #[cold]
-pub(super) fn diagnose(
-    domain: &'static str,
-    site: &Site<'_>,
-    local: bool,
-    sum: &dyn Fn(&Site<'_>, &mut Totals),
-) -> Error {
+pub(super) fn diagnose(site: &Site<'_>, local: bool, sum: &dyn Fn(&Site<'_>) -> Result<Response>) -> Error {
     let Site { points, at, strain } = *site;
     if let Err(error) = check_strain(strain, at.s) {
         return error;
@@ -32,14 +26,18 @@ pub(super) fn diagnose(
             }
         }
         let one = Points { x: vec![x], y: vec![y], weight: vec![1.0], rates: None };
-        let mut totals = Totals::ZERO;
-        sum(&Site { points: &one, ..*site }, &mut totals);
-        let u = totals.energy();
-        if !u.is_finite() {
-            return inadmissible("energy density", u, domain, at.s, x, y);
+        if let Err(error) = sum(&Site { points: &one, ..*site }) {
+            return error;
         }
     }
     no_derivative(at)
+}
+
+/// The energy density of a law is not finite at the one point of a site.
+pub(super) fn not_finite(domain: &'static str, site: &Site<'_>, u: f64) -> Error {
+    let Site { points, at, .. } = *site;
+    let first = |coordinate: &[f64]| coordinate.first().copied().unwrap_or(0.0);
+    inadmissible("energy density", u, domain, at.s, first(&points.x), first(&points.y))
 }
 
 /// Every energy density is finite, but a sum of derivatives is not.

@@ -5,17 +5,18 @@
 
 use std::marker::PhantomData;
 
-use super::blocks::{Blank, Blocks, Respond, fill_one_by_one, set_parts};
-use super::diagnose::diagnose;
+use super::blocks::{Blank, Blocks, fill_one_by_one, set_parts};
+use super::diagnose::{diagnose, not_finite};
 use super::differentiate::{FibreResponse, Level, Rate, Tangent};
-use super::response::{Points, Request, Station};
-use super::scratch::{BLOCKS, Scratch, with_scratch};
+use super::law::Local;
+use super::response::{Points, Request, Response, Station};
+use super::scratch::{BLOCKS, Loan, Scratch};
 use super::span::{Span, fibre, splat6};
 use super::sums::{Block, Sums, Totals};
 use crate::error::{Error, Result};
 use crate::lie::Strain;
-use crate::scalar::Lane;
 use crate::scalar::lane::{Kernel, MAX_LANES, dispatch};
+use crate::scalar::{Lane, lanes_disagreed};
 
 /// The section and strain of one evaluation.
 #[derive(Clone, Copy)]
@@ -31,15 +32,14 @@ pub struct Job<'a> {
     pub(super) request: Request,
     /// Whether the reference is.
     curved: bool,
-    /// What is summed; the energy is NaN where a point is inadmissible or a sum not finite.
-    pub(super) totals: &'a mut Totals,
+    /// Whether this is the search for the place of a failure.
+    searching: bool,
 }
 
 impl<'a> Job<'a> {
-    /// Into totals that are zero.
     #[inline(always)]
-    pub(super) fn new(site: Site<'a>, request: Request, totals: &'a mut Totals) -> Self {
-        Self { site, request, curved: site.at.reference.is_curved(), totals }
+    pub(super) fn new(site: Site<'a>, request: Request) -> Self {
+        Self { site, request, curved: site.at.reference.is_curved(), searching: false }
     }
 }
 
@@ -49,36 +49,43 @@ impl<'a> Job<'a> {
 ///
 /// For a reference with initial curvature the deformation gradient is [e₁ e₂ γ_tot][e₁ e₂ γ*]⁻¹ = I + (Bξ − Bξ*) ⊗ e₃ / j, again one column.
 #[inline(always)]
-pub(super) fn integrate_local(law: &dyn Blocks, job: &mut Job<'_>) -> Result<()> {
-    sum_local(law, job);
-    if job.totals.energy().is_finite() { Ok(()) } else { Err(diagnose_local(law, job)) }
+pub(super) fn integrate_local(law: &dyn Blocks, job: &Job<'_>) -> Result<Response> {
+    if job.request <= Request::Wrench { law.sum(job) } else { sum_by_blocks(law, job) }
 }
 
+/// The response, from the totals; written where it goes by what knows the machine's registers.
+#[inline(always)]
+fn answer<L: Lane>(law: &dyn Blocks, job: &Job<'_>, totals: &Totals, admissible: bool) -> Result<Response> {
+    let energy = totals.judged::<L>(job.request, admissible);
+    if energy.is_finite() { Ok(totals.response(job.request)) } else { Err(refuse(law, job, energy)) }
+}
+
+/// Finds what made a sum inadmissible or not finite, and where: by the same sum over one point at a time.
 #[cold]
 #[inline(never)]
-fn diagnose_local(law: &dyn Blocks, job: &Job<'_>) -> Error {
-    diagnose(law.region(), &job.site, true, &|site, totals| {
-        sum_local(law, &mut Job::new(*site, job.request, totals));
+fn refuse(law: &dyn Blocks, job: &Job<'_>, energy: f64) -> Error {
+    if job.searching {
+        return not_finite(law.region(), &job.site, energy);
+    }
+    diagnose(&job.site, true, &|site| {
+        integrate_local(law, &Job { searching: true, ..Job::new(*site, job.request) })
     })
 }
 
+/// The sums of a law that fills in its derivatives at blocks of points.
 #[inline(always)]
-fn sum_local(law: &dyn Blocks, job: &mut Job<'_>) {
-    if job.request <= Request::Wrench {
-        if law.sum(job.request, job) {
-            return;
-        }
-        *job.totals = Totals::ZERO;
-    }
-    with_scratch(|scratch| match job.request {
+pub(super) fn sum_by_blocks(law: &dyn Blocks, job: &Job<'_>) -> Result<Response> {
+    let mut loan = Loan::take();
+    let scratch = loan.scratch();
+    match job.request {
         Request::Rate => dispatch(Sum { law, job, scratch, level: PhantomData::<Rate> }),
         _ => dispatch(Sum { law, job, scratch, level: PhantomData::<Tangent> }),
-    });
+    }
 }
 
 /// The sums of a law that is evaluated in their midst.
 #[inline(always)]
-pub(super) fn sum_in_one_pass<L: Lane, O: Level, R: Respond<L, O>>(law: &R, job: &mut Job<'_>) {
+pub(super) fn sum_in_one_pass<L: Lane, O: Level, M: Local>(law: &M, job: &Job<'_>) -> Result<Response> {
     let Site { points, at, strain } = job.site;
     let span = Span::of(points, 0, points.len());
     let xi = splat6(&strain.to_array());
@@ -93,31 +100,44 @@ pub(super) fn sum_in_one_pass<L: Lane, O: Level, R: Respond<L, O>>(law: &R, job:
         if job.curved {
             smallest = smallest.min(block.volume);
         }
-        sums.add_wrench::<O>(&block, &law.respond_at(&fibre));
+        sums.add_wrench::<O>(&block, &law.respond::<L, O>(&fibre));
         q += L::LANES;
     }
-    sums.add_to(O::REQUEST, job.totals);
-    job.totals.judge::<L>(job.request, smallest.min_lane() > 0.0);
+    if lanes_disagreed() {
+        return in_blocks(law, job);
+    }
+    let mut totals = Totals::ZERO;
+    sums.add_to(O::REQUEST, &mut totals);
+    answer::<L>(law, job, &totals, smallest.min_lane() > 0.0)
+}
+
+/// Out of line, since it is rarely wanted.
+#[cold]
+#[inline(never)]
+fn in_blocks(law: &dyn Blocks, job: &Job<'_>) -> Result<Response> {
+    sum_by_blocks(law, job)
 }
 
 struct Sum<'a, 'b, O> {
     law: &'a dyn Blocks,
-    job: &'a mut Job<'b>,
+    job: &'a Job<'b>,
     scratch: &'a mut Scratch,
     level: PhantomData<O>,
 }
 
 impl<O: Level> Kernel for Sum<'_, '_, O> {
-    type Output = ();
+    type Output = Result<Response>;
+    const ALIGNED: bool = true;
 
     #[inline(always)]
-    fn run<L: Lane>(self) {
+    fn run<L: Lane>(self) -> Result<Response> {
         let Self { law, job, scratch, .. } = self;
         let (Site { points, at, strain }, curved) = (job.site, job.curved);
-        let xi = splat6(&strain.to_array());
+        let mut totals = Totals::ZERO;
         let mut smallest = L::splat(f64::INFINITY);
         let mut first = 0;
         loop {
+            let xi = splat6(&strain.to_array());
             let span = Span::of(points, first, BLOCKS * MAX_LANES);
             smallest = smallest.min(lay_out::<L, O>(at, &xi, &span, curved, scratch));
             let blocks = span.len().div_ceil(MAX_LANES);
@@ -128,13 +148,13 @@ impl<O: Level> Kernel for Sum<'_, '_, O> {
             }
             let mut sums = if first == 0 { Sums::of(&xi) } else { Sums::zero() };
             add_up::<L, O>(at, &span, curved, scratch, &mut sums);
-            sums.add_to(O::REQUEST, job.totals);
+            sums.add_to(O::REQUEST, &mut totals);
             first += BLOCKS * MAX_LANES;
             if first >= points.len() {
                 break;
             }
         }
-        job.totals.judge::<L>(job.request, smallest.min_lane() > 0.0);
+        answer::<L>(law, job, &totals, smallest.min_lane() > 0.0)
     }
 }
 

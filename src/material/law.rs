@@ -71,7 +71,7 @@ pub trait Isotropic: Send + Sync {
 
     /// The sums over a section. The library's business: its own laws have it compiled with it (`compiled_here`).
     #[doc(hidden)]
-    fn perform(&self, task: &mut Task<'_>) -> Result<()>
+    fn perform(&self, task: &mut Task<'_>) -> Result<Response>
     where
         Self: Sized,
     {
@@ -80,7 +80,7 @@ pub trait Isotropic: Send + Sync {
 
     /// The sums of the law with the pressure taken off that it has at rest, likewise.
     #[doc(hidden)]
-    fn perform_stress_free(&self, task: &mut Task<'_>) -> Result<()>
+    fn perform_stress_free(&self, task: &mut Task<'_>) -> Result<Response>
     where
         Self: Sized,
     {
@@ -139,7 +139,7 @@ pub trait Local: Send + Sync {
 
     /// The sums over a section. The library's business, overridden by the isotropic level.
     #[doc(hidden)]
-    fn perform(&self, task: &mut Task<'_>) -> Result<()>
+    fn perform(&self, task: &mut Task<'_>) -> Result<Response>
     where
         Self: Sized,
     {
@@ -178,7 +178,7 @@ impl<M: Isotropic> Local for M {
         isotropic_response::<Self, L, O>(self, fibre)
     }
 
-    fn perform(&self, task: &mut Task<'_>) -> Result<()> {
+    fn perform(&self, task: &mut Task<'_>) -> Result<Response> {
         Isotropic::perform(self, task)
     }
 
@@ -239,7 +239,7 @@ pub trait Sectional: Send + Sync {
 
     /// The sums over a section. The library's business, overridden by the cheaper levels.
     #[doc(hidden)]
-    fn perform(&self, task: &mut Task<'_>) -> Result<()>
+    fn perform(&self, task: &mut Task<'_>) -> Result<Response>
     where
         Self: Sized,
     {
@@ -269,7 +269,7 @@ impl<L: Local> Sectional for L {
         Local::domain(self)
     }
 
-    fn perform(&self, task: &mut Task<'_>) -> Result<()> {
+    fn perform(&self, task: &mut Task<'_>) -> Result<Response> {
         Local::perform(self, task)
     }
 }
@@ -326,7 +326,7 @@ impl<L: Sectional> Material for L {
         strain: &Strain,
         request: Request,
     ) -> Result<Response> {
-        Task::respond(Site { points, at, strain }, request, |task| self.perform(task))
+        self.perform(&mut Task::one(Site { points, at, strain }, request))
     }
 
     fn integrate_many(
@@ -336,7 +336,7 @@ impl<L: Sectional> Material for L {
         request: Request,
         out: &mut [Response],
     ) -> Result<()> {
-        self.perform(&mut Task::many(points, sites, request, out))
+        self.perform(&mut Task::many(points, sites, request, out)).map(|_| ())
     }
 
     fn polynomial_degree(&self) -> Option<usize> {

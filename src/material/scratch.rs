@@ -1,6 +1,6 @@
 //! Room for the blocks of a sum, kept by each thread: clearing it at every call would cost as much as a block of points.
 
-use std::cell::RefCell;
+use std::cell::Cell;
 
 use super::blocks::{Derivatives, Strands};
 use crate::scalar::lane::MAX_LANES;
@@ -25,22 +25,38 @@ impl Scratch {
 }
 
 thread_local! {
-    static SCRATCH: RefCell<Scratch> = const { RefCell::new(Scratch::ZERO) };
+    static KEPT: Cell<Option<Box<Scratch>>> = const { Cell::new(None) };
 }
 
-/// Calls `f` with this thread's room, or with fresh room where a law asks for a sum within a sum.
-#[inline(always)]
-pub(super) fn with_scratch<T>(f: impl FnOnce(&mut Scratch) -> T) -> T {
-    SCRATCH.with(|scratch| match scratch.try_borrow_mut() {
-        Ok(mut scratch) => f(&mut scratch),
-        Err(_) => with_fresh(f),
-    })
+/// A scratch on loan: taken from this thread, or fresh where it is out, as when a law asks for a sum within a sum.
+///
+/// A loan and not a closure's argument: what a closure returns through the thread's storage is copied, and a response is large.
+pub(super) struct Loan(Option<Box<Scratch>>);
+
+impl Loan {
+    #[inline(always)]
+    pub(super) fn take() -> Self {
+        Self(KEPT.try_with(Cell::take).unwrap_or(None))
+    }
+
+    #[inline(always)]
+    pub(super) fn scratch(&mut self) -> &mut Scratch {
+        self.0.get_or_insert_with(fresh)
+    }
 }
 
-/// Out of line: its room would be cleared, or at least reached for, at every call.
+impl Drop for Loan {
+    #[inline(always)]
+    fn drop(&mut self) {
+        let scratch = self.0.take();
+        // where the thread is ending, it is simply dropped
+        let _ = KEPT.try_with(|kept| kept.set(scratch));
+    }
+}
+
+/// Out of line: its room would be reached for at every call.
 #[cold]
 #[inline(never)]
-fn with_fresh<T>(f: impl FnOnce(&mut Scratch) -> T) -> T {
-    let mut fresh = Scratch::ZERO;
-    f(&mut fresh)
+fn fresh() -> Box<Scratch> {
+    Box::new(Scratch::ZERO)
 }

@@ -1,14 +1,14 @@
 //! Sums of a law written in Δξ itself, differentiated in six variables, and s as a seventh where Ψ′ is wanted.
 
-use super::diagnose::diagnose;
+use super::diagnose::{diagnose, not_finite};
 use super::differentiate::{Rate, along};
 use super::integrate::{Job, Site};
 use super::kinematics::Point;
 use super::law::Sectional;
-use super::response::{Request, Station};
+use super::response::{Request, Response, Station};
 use super::span::Span;
 use super::sums::{Block, Sums, Totals};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::lie::Strain;
 use crate::scalar::lane::{Kernel, MAX_LANES, dispatch};
 use crate::scalar::{Jet, Lane, Scalar, lanes_disagreed};
@@ -50,6 +50,7 @@ struct Add<'a, M> {
 
 impl<M: Sectional> Kernel for Add<'_, M> {
     type Output = ();
+    const ALIGNED: bool = true;
 
     #[inline(always)]
     fn run<L: Lane>(self) {
@@ -118,23 +119,28 @@ fn point<L: Lane, const N: usize, const M: usize>(block: &Block<L>, s: f64) -> P
 }
 
 /// Sums a section-level law u(Δξ, x, y).
-pub(super) fn integrate_sectional(law: &dyn Spans, job: &mut Job<'_>) -> Result<()> {
+pub(super) fn integrate_sectional(law: &dyn Spans, job: &Job<'_>) -> Result<Response> {
     let (site, request) = (job.site, job.request);
-    sum(law, &site, request, job.totals);
-    if job.totals.energy().is_finite() {
-        return Ok(());
-    }
-    Err(diagnose(law.region(), &site, false, &|site, totals| sum(law, site, request, totals)))
+    let fail = |site: &Site<'_>, energy| not_finite(law.region(), site, energy);
+    sum(law, &site, request, &|site, _| diagnose(site, false, &|site| sum(law, site, request, &fail)))
 }
 
-/// The sums; the energy is NaN where one is not finite, or a component of the strain: a law need not look at every one.
-fn sum(law: &dyn Spans, site: &Site<'_>, request: Request, totals: &mut Totals) {
+/// The sums; they fail where one is not finite, or a component of the strain: a law need not look at every one.
+#[inline]
+fn sum(
+    law: &dyn Spans,
+    site: &Site<'_>,
+    request: Request,
+    fail: &dyn Fn(&Site<'_>, f64) -> Error,
+) -> Result<Response> {
     let at = Place { at: site.at, strain: site.strain };
-    if law.add(request, at, &Span::of(site.points, 0, site.points.len()), totals) {
-        *totals = one_by_one(law, site, request, at);
+    let mut totals = Totals::ZERO;
+    if law.add(request, at, &Span::of(site.points, 0, site.points.len()), &mut totals) {
+        totals = one_by_one(law, site, request, at);
     }
     let finite = site.strain.to_array().iter().all(|x| x.is_finite());
-    totals.judge::<f64>(request, finite);
+    let energy = totals.judged::<f64>(request, finite);
+    if energy.is_finite() { Ok(totals.response(request)) } else { Err(fail(site, energy)) }
 }
 
 /// Block by block, and point by point in the blocks whose lanes disagree.

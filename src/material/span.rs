@@ -61,6 +61,8 @@ impl<'a> Span<'a> {
         if curved {
             block.volume = volume(&splat6(&reference.twist.to_array()), x, y);
             block.inverse_volume = L::splat(1.0) / block.volume;
+            block.weight_of_energy = weight * block.volume;
+            block.weight_of_stiffness = weight * block.inverse_volume;
         }
         block
     }

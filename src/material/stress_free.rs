@@ -81,7 +81,7 @@ impl<L: Isotropic> Isotropic for ReferencePressure<L> {
         evaluate(&self.0, invariants, at)
     }
 
-    fn perform(&self, task: &mut Task<'_>) -> Result<()> {
+    fn perform(&self, task: &mut Task<'_>) -> Result<Response> {
         self.0.perform_stress_free(task)
     }
 

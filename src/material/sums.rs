@@ -27,9 +27,12 @@ pub(super) struct Block<L> {
     pub(super) x_rate: L,
     pub(super) y_rate: L,
     pub(super) weight_rate: L,
-    /// Volume of the reference per dA ds, and one over it.
+    /// Volume j of the reference per dA ds, and one over it.
     pub(super) volume: L,
     pub(super) inverse_volume: L,
+    /// w j and w/j: the weights of energy and stiffness.
+    pub(super) weight_of_energy: L,
+    pub(super) weight_of_stiffness: L,
 }
 
 impl<L: Lane> Block<L> {
@@ -37,7 +40,18 @@ impl<L: Lane> Block<L> {
     #[inline(always)]
     pub(super) fn at(x: L, y: L, weight: L) -> Self {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        Self { x, y, weight, x_rate: zero, y_rate: zero, weight_rate: zero, volume: one, inverse_volume: one }
+        Self {
+            x,
+            y,
+            weight,
+            x_rate: zero,
+            y_rate: zero,
+            weight_rate: zero,
+            volume: one,
+            inverse_volume: one,
+            weight_of_energy: weight,
+            weight_of_stiffness: weight,
+        }
     }
 }
 
@@ -59,7 +73,7 @@ impl<L: Lane> Sums<L> {
     /// Adds energy and wrench of a local law at a block: w j u, w Bᵀ g, and for the rate (w′ Bᵀ + w B′ᵀ) g + w Bᵀ g′.
     #[inline(always)]
     pub(super) fn add_wrench<O: Level>(&mut self, p: &Block<L>, local: &FibreResponse<L>) {
-        self.energy = (p.weight * p.volume).mul_add(local.energy, self.energy);
+        self.energy = p.weight_of_energy.mul_add(local.energy, self.energy);
         if O::REQUEST >= Request::Wrench {
             add_wrench(&mut self.wrench, &local.stress, p.x, p.y, p.weight);
         }
@@ -79,7 +93,7 @@ impl<L: Lane> Sums<L> {
     #[inline(always)]
     pub(super) fn add_tangent<O: Level>(&mut self, p: &Block<L>, local: &FibreResponse<L>) {
         if O::REQUEST >= Request::Tangent {
-            self.add_stiffness(&local.stiffness, p.x, p.y, p.weight * p.inverse_volume);
+            self.add_stiffness(&local.stiffness, p.x, p.y, p.weight_of_stiffness);
         }
     }
 
@@ -91,19 +105,20 @@ impl<L: Lane> Sums<L> {
         // rows of h taken to the twist about e₃: x h_b· − y h_a·
         let za = x.mul_add(ab, -(y * aa));
         let zb = x.mul_add(bb, -(y * ab));
-        let ze = x.mul_add(be, -(y * ae));
-        let (y_ee, x_ee) = (y * ee, x * ee);
+        // a machine adds beside its multiplications, so that of two ways the one with fewer products is taken
+        let (x_be, y_ae, y_ee, x_ee) = (x * be, y * ae, y * ee, x * ee);
+        let ze = x_be - y_ae;
         let k = &mut self.tangent;
         k[0] = y.mul_add(y_ee, k[0]);
         k[1] = (-x).mul_add(y_ee, k[1]);
         k[2] = y.mul_add(ze, k[2]);
-        k[3] = y.mul_add(ae, k[3]);
+        k[3] = k[3] + y_ae;
         k[4] = y.mul_add(be, k[4]);
         k[5] = k[5] + y_ee;
         k[6] = x.mul_add(x_ee, k[6]);
         k[7] = (-x).mul_add(ze, k[7]);
         k[8] = (-x).mul_add(ae, k[8]);
-        k[9] = (-x).mul_add(be, k[9]);
+        k[9] = k[9] - x_be;
         k[10] = k[10] - x_ee;
         k[11] = x.mul_add(zb, (-y).mul_add(za, k[11]));
         k[12] = k[12] + za;
@@ -135,18 +150,12 @@ impl<L: Lane> Sums<L> {
         }
     }
 
-    /// U, over all lanes.
-    #[inline(always)]
-    pub(super) fn energy(&self) -> f64 {
-        self.energy.sum()
-    }
-
     /// Adds the sums over the lanes to the totals.
     #[inline(always)]
     pub(super) fn add_to(&self, request: Request, totals: &mut Totals) {
         let (zero, w, k, r) = (L::splat(0.0), &self.wrench, &self.tangent, &self.rate);
         if request == Request::Energy {
-            totals.0[0].0[0] += self.energy();
+            totals.0[0].0[0] += self.energy.sum();
             return;
         }
         totals.add::<L>(0, &[self.energy, w[0], w[1], w[2], w[3], w[4], w[5], k[0]]);
@@ -236,9 +245,9 @@ impl Totals {
         self.0[k / MAX_LANES].0[k % MAX_LANES]
     }
 
-    /// Makes the energy NaN where the state is not admissible or an entry that was asked for not finite.
+    /// U; NaN where the state is not admissible or an entry that was asked for not finite.
     #[inline(always)]
-    pub(super) fn judge<L: Lane>(&mut self, request: Request, admissible: bool) {
+    pub(super) fn judged<L: Lane>(&self, request: Request, admissible: bool) -> f64 {
         let finite = match request {
             Request::Energy => true, // speaks for itself
             Request::Wrench => {
@@ -248,21 +257,13 @@ impl Totals {
             }
             Request::Tangent | Request::Rate => self.is_finite::<L>(),
         };
-        if !(admissible && finite) {
-            self.0[0].0[0] = f64::NAN;
-        }
-    }
-
-    /// U.
-    #[inline(always)]
-    pub(super) fn energy(&self) -> f64 {
-        self.entry(0)
+        if admissible && finite { self.entry(0) } else { f64::NAN }
     }
 
     /// The response, which is written entry by entry where it goes: what was not asked for is zero.
     #[inline(always)]
     pub(super) fn response(&self, request: Request) -> Response {
-        let energy = self.energy();
+        let energy = self.entry(0);
         if request == Request::Energy {
             return Response { energy, ..Response::ZERO };
         }

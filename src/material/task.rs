@@ -5,7 +5,6 @@ use super::blocks::Blocks;
 use super::integrate::{Job, Site, integrate_local};
 use super::response::{Points, Request, Response, Station};
 use super::sectional::{Spans, integrate_sectional};
-use super::sums::Totals;
 use crate::error::Result;
 use crate::lie::Strain;
 
@@ -18,17 +17,10 @@ enum Work<'a> {
 }
 
 impl<'a> Task<'a> {
-    /// The response to one strain, of a law that performs the task. The sums are made apart and the response written once, where it will be
-    /// returned: a copy of one costs as much as a block of points.
+    /// One strain.
     #[inline(always)]
-    pub(super) fn respond(
-        site: Site<'_>,
-        request: Request,
-        perform: impl FnOnce(&mut Task<'_>) -> Result<()>,
-    ) -> Result<Response> {
-        let mut totals = Totals::ZERO;
-        perform(&mut Task(Work::One(Job::new(site, request, &mut totals))))?;
-        Ok(totals.response(request))
+    pub(super) fn one(site: Site<'a>, request: Request) -> Self {
+        Self(Work::One(Job::new(site, request)))
     }
 
     /// Many strains and responses.
@@ -41,23 +33,28 @@ impl<'a> Task<'a> {
         Self(Work::Many(points, sites, request, out))
     }
 
-    /// By a law of the deformation.
-    pub(super) fn perform(&mut self, law: &dyn Blocks) -> Result<()> {
+    /// By a law of the deformation. The response to one strain is returned: what sums it up writes it where the caller will find it, since a
+    /// copy of one costs as much as a block of points. Those to many strains are where the task wants them, and none is returned.
+    pub(super) fn perform(&mut self, law: &dyn Blocks) -> Result<Response> {
         match &mut self.0 {
             Work::One(job) => integrate_local(law, job),
-            Work::Many(points, sites, request, out) => integrate_many(law, points, sites, *request, out),
+            Work::Many(points, sites, request, out) => {
+                integrate_many(law, points, sites, *request, out)?;
+                Ok(Response::ZERO)
+            }
         }
     }
 
-    /// By a law of the strain.
-    pub(super) fn perform_sectional(&mut self, law: &dyn Spans) -> Result<()> {
+    /// By a law of the strain, likewise.
+    pub(super) fn perform_sectional(&mut self, law: &dyn Spans) -> Result<Response> {
         match &mut self.0 {
             Work::One(job) => integrate_sectional(law, job),
             Work::Many(points, sites, request, out) => {
                 let request = *request;
-                one_by_one(sites, request, out, |at, strain, totals| {
-                    integrate_sectional(law, &mut Job::new(Site { points, at, strain }, request, totals))
-                })
+                one_by_one(sites, out, |at, strain| {
+                    integrate_sectional(law, &Job::new(Site { points, at, strain }, request))
+                })?;
+                Ok(Response::ZERO)
             }
         }
     }
@@ -66,14 +63,11 @@ impl<'a> Task<'a> {
 /// Fills `out` one strain at a time.
 pub(super) fn one_by_one(
     sites: &[(Station, Strain)],
-    request: Request,
     out: &mut [Response],
-    sum: impl Fn(&Station, &Strain, &mut Totals) -> Result<()>,
+    sum: impl Fn(&Station, &Strain) -> Result<Response>,
 ) -> Result<()> {
     for ((at, strain), out) in sites.iter().zip(out) {
-        let mut totals = Totals::ZERO;
-        sum(at, strain, &mut totals)?;
-        *out = totals.response(request);
+        *out = sum(at, strain)?;
     }
     Ok(())
 }

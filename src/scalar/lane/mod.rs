@@ -282,6 +282,11 @@ pub trait Kernel {
     /// What it computes.
     type Output;
 
+    /// Whether its stack frame begins on a cache line. What finds no register is then stored within one, and loaded again without waiting:
+    /// 5 to 25 % of the time of the sums over a section. Not every kernel gains.
+    #[doc(hidden)]
+    const ALIGNED: bool = false;
+
     /// The computation. Mark it and what it calls `#[inline(always)]`, so that the body is compiled with the instructions of the
     /// machine; closures cannot be marked so and are better avoided.
     fn run<L: Lane>(self) -> Self::Output;
