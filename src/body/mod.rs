@@ -216,7 +216,11 @@ impl<C: CrossSection, M: Send + Sync> Elastic for Body<C, M> {
         let all = places.chunks(SITES).zip(strains.chunks(SITES)).zip(out.chunks_mut(SITES));
         for ((places, strains), out) in all {
             for ((site, s), strain) in sites.iter_mut().zip(places).zip(strains) {
-                *site = (Station { s: *s, reference: self.reference.checked(*s)? }, *strain);
+                // where it is straight, so is that of the site
+                if !matches!(self.reference, ReferenceShape::Straight) {
+                    site.0.reference = self.reference.checked(*s)?;
+                }
+                (site.0.s, site.1) = (*s, *strain);
             }
             self.section.respond_many(&sites[..places.len()], request, out)?;
         }

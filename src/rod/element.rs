@@ -37,14 +37,18 @@ impl<D: Scalar, const S: usize> Kinematics<D, S> {
         loads
     }
 
-    /// Λ_i and Λ_k of an element without distributed load.
-    pub(crate) fn wrenches_without_load(&self, wrench_at_end: &Wrench<D>) -> (Wrench<D>, [Wrench<D>; S]) {
+    /// Λ_i of an element without distributed load; the Λ_k go into `stage`.
+    #[inline(always)]
+    pub(crate) fn wrenches_without_load(
+        &self,
+        wrench_at_end: &Wrench<D>,
+        stage: &mut [Wrench<D>; S],
+    ) -> Wrench<D> {
         let at_start = brought_back(&self.end, wrench_at_end);
-        let mut stage = [at_start; S];
         for (wrench, pose) in stage.iter_mut().zip(&self.stage) {
             *wrench = carried(pose, &at_start);
         }
-        (at_start, stage)
+        at_start
     }
 
     /// Λ_i and Λ_k from the wrench at the end and the loads of the stages.

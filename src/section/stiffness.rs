@@ -70,7 +70,7 @@ impl Stiffness {
     /// Writes what is asked for; the rest is left as it is.
     fn answer(&self, at: &Station, strain: &Strain, request: Request, out: &mut Response) -> Result<()> {
         check_strain(strain, at.s)?;
-        let wrench = Wrench::from_vector(&(self.k * strain.to_vector()));
+        let wrench = Wrench::from_array(product(&self.k, &strain.to_array()));
         out.energy = 0.5 * strain.pair(&wrench);
         if request >= Request::Wrench {
             out.wrench = wrench;
@@ -80,6 +80,18 @@ impl Stiffness {
         }
         Ok(())
     }
+}
+
+/// K x, by columns.
+#[inline(always)]
+fn product(k: &Matrix6<f64>, x: &[f64; 6]) -> [f64; 6] {
+    let mut sum = [0.0; 6];
+    for (column, x) in k.as_slice().chunks_exact(6).zip(x) {
+        for (sum, k) in sum.iter_mut().zip(column) {
+            *sum += k * x;
+        }
+    }
+    sum
 }
 
 /// Whether two matrices are equal, entry by entry without a branch: what is not written again need not go back to memory.

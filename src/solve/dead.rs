@@ -9,7 +9,7 @@ use super::scale::Scale;
 use super::sweep::{Misfit, eliminate, minus_product};
 use crate::lie::{Wrench, so3::hat};
 use crate::rod::condense::{Answers, Condensed, DeadBlocks, Relation};
-use crate::rod::lanes::ELEMENTS;
+use crate::rod::lanes::{ELEMENTS, LEAST_DETERMINANT};
 use crate::rod::planar::PLACES;
 
 /// δm_i = S_i w_i + s_i, what the part of the rod beyond node i answers to a rotation of its end. The force is known everywhere, δn = n × w, and where the
@@ -236,9 +236,41 @@ fn step_back(t: &DeadBlocks<3>, next: &Relation) -> Option<(Relation, f64)> {
         }
         right[r][3] = constant;
     }
-    let mut left = matrix;
-    eliminate(&mut left, &mut right)?;
-    Some((right, stiffness))
+    let relation = match solved(&matrix, &right) {
+        Some(relation) => relation,
+        None => {
+            let mut left = matrix;
+            eliminate(&mut left, &mut right)?;
+            right
+        }
+    };
+    Some((relation, stiffness))
+}
+
+/// A⁻¹ B by cofactors, without waiting for one pivot after the other; `None` where the determinant may have lost its digits.
+#[inline(always)]
+fn solved([a, b, c]: &[[f64; 3]; 3], right: &Relation) -> Option<Relation> {
+    let cross = |u: &[f64; 3], v: &[f64; 3]| {
+        [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+    };
+    let size = |u: &[f64; 3]| u[0].abs() + u[1].abs() + u[2].abs();
+    // columns of the inverse, times the determinant
+    let columns = [cross(b, c), cross(c, a), cross(a, b)];
+    let determinant = a[0] * columns[0][0] + a[1] * columns[0][1] + a[2] * columns[0][2];
+    if !(determinant.abs() > LEAST_DETERMINANT * (size(a) * size(b) * size(c))) {
+        return None;
+    }
+    let inverse = 1.0 / determinant;
+    let mut solution = [[0.0; 4]; 3];
+    for r in 0..3 {
+        for (column, row) in columns.iter().zip(right) {
+            let factor = column[r] * inverse;
+            for c in 0..4 {
+                solution[r][c] += factor * row[c];
+            }
+        }
+    }
+    Some(solution)
 }
 
 /// The same in the plane, where the stiffness is its own bound.
@@ -254,4 +286,29 @@ fn step_back_in_plane(t: &DeadBlocks<1>, next: &Relation) -> Option<(Relation, f
     relation[0][0] = (s * t.turn_from_turn[0][0] - t.moment_from_turn[0][0]) / matrix;
     relation[0][3] = (s * t.turn[0] + c - t.moment[0]) / matrix;
     Some((relation, matrix / p))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cofactors_solve_as_elimination_does_and_leave_it_what_is_nearly_singular() {
+        let matrix = [[0.9, 0.2, -0.3], [-0.1, 1.1, 0.4], [0.3, -0.2, 0.8]];
+        let right = [[1.0, 2.0, -1.0, 0.5], [0.0, 1.0, 3.0, -2.0], [4.0, -1.0, 0.0, 1.0]];
+        let by_cofactors = solved(&matrix, &right).unwrap();
+        let (mut left, mut by_pivots) = (matrix, right);
+        eliminate(&mut left, &mut by_pivots).unwrap();
+        for (a, b) in by_cofactors.as_flattened().iter().zip(by_pivots.as_flattened()) {
+            // condition 2, a dozen roundings of numbers below 5
+            assert!((a - b).abs() < 1e-14, "{a} {b}");
+        }
+        // a sum of the others but for 1e-7
+        let nearly = [matrix[0], matrix[1], [0.8, 1.3, 0.1 + 1e-7]];
+        let nothing = [[0.0; 3]; 3];
+        let unknown = [matrix[0], matrix[1], [f64::NAN, 0.0, 1.0]];
+        for refused in [nearly, nothing, unknown] {
+            assert!(solved(&refused, &right).is_none(), "{refused:?}");
+        }
+    }
 }

@@ -63,9 +63,9 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
     fn move_forward(&self, unknowns: &Unknowns<S>, into: &mut Configuration<S>) -> Result<()> {
         let (n, body) = (self.elements(), self.rod.body());
         into.kinematics.resize(n, Kinematics { stage: [Pose::identity(); S], end: Pose::identity() });
-        let mut pose = unknowns.base;
-        into.node_pose.push(pose);
         // as in the configuration before, which is then overwritten: no need to clear
+        into.node_pose.resize(n + 1, unknowns.base);
+        into.node_pose[0] = unknowns.base;
         into.response.resize(n, [Response::zero(); S]);
         let loaded = !self.rod.loads().is_empty();
         into.loads.resize(if loaded { n } else { 0 }, [LoadWrench::none(); S]);
@@ -79,16 +79,15 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
             }
             let motion = &into.kinematics[i];
             if loaded {
-                self.stage_loads(i, &pose, motion, &mut into.loads[i])?;
+                self.stage_loads(i, &into.node_pose[i], motion, &mut into.loads[i])?;
             }
-            pose = pose * motion.end;
+            into.node_pose[i + 1] = into.node_pose[i] * motion.end;
             if let Some(j) = self.joint_at(i + 1) {
-                let joint = &self.rod.joints()[j];
+                let (joint, pose) = (&self.rod.joints()[j], into.node_pose[i + 1]);
                 let load = self.load_on(&joint.fixture, "point load", &pose, joint.s)?;
                 into.joints.push(JointState { pose, wrench: Wrench::zero(), load, applied: Wrench::zero() });
-                pose = pose * joint.corner;
+                into.node_pose[i + 1] = pose * joint.corner;
             }
-            into.node_pose.push(pose);
         }
         Ok(())
     }
@@ -120,6 +119,7 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
         if independent {
             into.node_wrench[..n].copy_from_slice(&unknowns.wrenches);
         }
+        let plane = self.is_planar && planar::carries(&[at_tip]) && self.rod.joints().is_empty();
         let mut joint = into.joints.len();
         for i in (0..n).rev() {
             let mut before = into.node_wrench[i + 1];
@@ -141,9 +141,15 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
                 continue;
             }
             into.end_wrench[i] = before;
-            (into.node_wrench[i], into.stage_wrench[i]) = match loads {
-                Some(loads) => motion.wrenches(&self.table, &before, &wrenches_of(loads), h),
-                None => motion.wrenches_without_load(&before),
+            let stage = &mut into.stage_wrench[i];
+            into.node_wrench[i] = match loads {
+                None if plane => planar::wrenches(motion, &before, stage),
+                None => motion.wrenches_without_load(&before, stage),
+                Some(loads) => {
+                    let start;
+                    (start, *stage) = motion.wrenches(&self.table, &before, &wrenches_of(loads), h);
+                    start
+                }
             };
         }
         into.defect.reverse();
@@ -184,6 +190,7 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
     }
 
     /// The state of element i, to linearise about.
+    #[inline(always)]
     pub(crate) fn element<'c>(
         &self,
         i: usize,
@@ -269,7 +276,6 @@ impl<const S: usize> Default for Configuration<S> {
 impl<const S: usize> Configuration<S> {
     /// Without what is pushed; the rest is overwritten.
     fn clear(&mut self) {
-        self.node_pose.clear();
         self.defect.clear();
         self.joints.clear();
     }

@@ -193,6 +193,7 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
     }
 
     /// ξ = ξ* + Δξ at the stages of element i.
+    #[inline(always)]
     pub(crate) fn twists(&self, i: usize, strains: &[Strain; S]) -> [Twist; S] {
         let mut twists = self.reference[i];
         for (twist, strain) in twists.iter_mut().zip(strains) {

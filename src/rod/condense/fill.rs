@@ -51,6 +51,7 @@ impl<const S: usize> Condensed<S> {
             eliminated.suspect
         } else {
             let (linearised, eliminated) = &mut work.space;
+            linearised.turning = kind.loads > Loads::Dead;
             for i in block.clone() {
                 linearised.set(i - first, &element(i), &start[i]);
             }

@@ -307,3 +307,24 @@ fn what_an_element_answers_is_what_its_columns_say() {
     answers_agree::<2>();
     answers_agree::<3>();
 }
+
+#[test]
+fn wrenches_in_the_plane_are_those_in_space() {
+    let (table, mut seed) = (Collocation::<3>::gauss(), 29);
+    let kind = Kind { constraint: Constraint::planar(), plane: true, loads: Loads::None };
+    for _ in 0..20 {
+        let Case { kinematics, end, .. } = case(&table, &mut seed, &kind);
+        let (mut space, mut plane) = ([Wrench::zero(); 3], [Wrench::zero(); 3]);
+        let starts = [
+            kinematics.wrenches_without_load(&end, &mut space),
+            planar::wrenches(&kinematics, &end, &mut plane),
+        ];
+        let size = starts[0].to_vector().norm();
+        let pairs = space.iter().zip(&plane).chain([(&starts[0], &starts[1])]);
+        for (a, b) in pairs {
+            let error = (*a - *b).to_vector().norm();
+            // a dozen roundings
+            assert!(error < 1e-15 * 5.0 * size.max(end.to_vector().norm()), "{error:.1e} of {size:.1e}");
+        }
+    }
+}

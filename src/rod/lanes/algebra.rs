@@ -21,6 +21,13 @@ pub(super) struct Map<L> {
     pub(super) lower: Matrix<L>,
 }
 
+/// Three linear forms of a twist, (w, v) → X w + Y v.
+#[derive(Clone, Copy)]
+pub(super) struct Forms<L> {
+    pub(super) angular: Matrix<L>,
+    pub(super) linear: Matrix<L>,
+}
+
 #[inline(always)]
 pub(super) fn zeros<L: Lane>() -> Matrix<L> {
     [[L::splat(0.0); 3]; 3]
@@ -250,6 +257,56 @@ impl<L: Lane> Map<L> {
             lower[r] = add(&lower[r], &other[r]);
         }
         Self { diagonal: times_hat(&self.diagonal, &b.first), lower }
+    }
+}
+
+impl<L: Lane> Forms<L> {
+    /// L(Λ) w = m × w + n × v, the moment that a displacement makes of a wrench.
+    #[inline(always)]
+    pub(super) fn of_wrench(wrench: &Pair<L>) -> Self {
+        let one = L::splat(1.0);
+        Self {
+            angular: add_hat(&zeros(), one, &wrench.first),
+            linear: add_hat(&zeros(), one, &wrench.second),
+        }
+    }
+
+    /// Forms of M η: (X A + Y B, Y A).
+    #[inline(always)]
+    pub(super) fn times(&self, map: &Map<L>) -> Self {
+        let angular = product(&self.angular, &map.diagonal);
+        Self {
+            angular: add_product(angular, &self.linear, &map.lower),
+            linear: product(&self.linear, &map.diagonal),
+        }
+    }
+
+    /// Forms of ad_a η.
+    #[inline(always)]
+    pub(super) fn times_ad(&self, a: &Pair<L>) -> Self {
+        Self { angular: self.angular_times_ad(a), linear: times_hat(&self.linear, &a.first) }
+    }
+
+    /// X a^ + Y b^: forms of ad_a η for an η that is a rotation alone.
+    #[inline(always)]
+    pub(super) fn angular_times_ad(&self, a: &Pair<L>) -> Matrix<L> {
+        let (mut sum, other) = (times_hat(&self.angular, &a.first), times_hat(&self.linear, &a.second));
+        for r in 0..3 {
+            sum[r] = add(&sum[r], &other[r]);
+        }
+        sum
+    }
+
+    /// k self + l other.
+    #[inline(always)]
+    pub(super) fn combined(&self, k: f64, l: f64, other: &Self) -> Self {
+        let (k, l) = (L::splat(k), L::splat(l));
+        let mut sum = *self;
+        for r in 0..3 {
+            sum.angular[r] = add_scaled(&scale(k, &self.angular[r]), l, &other.angular[r]);
+            sum.linear[r] = add_scaled(&scale(k, &self.linear[r]), l, &other.linear[r]);
+        }
+        sum
     }
 }
 

@@ -35,6 +35,8 @@ pub(crate) struct Linearised {
     pub(super) loads: Loads,
     /// Whether there are any.
     pub(super) loaded: bool,
+    /// Whether their forces, or moments, change in space with the rotation of the section.
+    pub(crate) turning: bool,
     /// The strains that do not vary.
     pub(super) fixed: [bool; 6],
 }
@@ -63,6 +65,7 @@ impl Linearised {
                 internal: [[NOTHING; 6]; STAGES + 1],
             },
             loaded: false,
+            turning: false,
             fixed: [false; 6],
         }
     }

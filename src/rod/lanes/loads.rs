@@ -1,7 +1,7 @@
 //! What distributed loads add to the linearised elements of a block, where they do not depend on where they act: δf̄ = D w.
 
 use super::algebra::{
-    Matrix, Pair, add, add_hat, add_multiple, add_product, cross_columns, product, product_transpose,
+    Forms, Matrix, Pair, add, add_hat, add_multiple, add_product, cross_columns, product, product_transpose,
     subtract_product, transpose_product, zeros,
 };
 use super::eliminate::System;
@@ -36,36 +36,48 @@ impl Terms {
         }
     }
 
-    /// g_lm = Ad_l⁻ᵀ(D_l − L(f̄_l)) B_lm, e_l = Ad_l⁻ᵀ D_l Ad_l⁻¹, for stage l with its row of B.
+    /// g_lm = Ad_l⁻ᵀ(D_l − L(f̄_l)) B_lm by the [forms](Moved) of that, for stage l with its row of B.
     #[inline(always)]
     pub(super) fn set<L: Lane>(
         &mut self,
         stages: usize,
         l: usize,
-        pose: &Placed<L>,
+        moved: &Moved<L>,
         variation: &[MapRows; STAGES],
-        state: &Linearised,
+        turning: bool,
         at: usize,
     ) {
-        let minus = L::splat(-1.0);
-        let load: Pair<L> = load_pair(&state.loads.wrench[l], at);
-        let moment: Matrix<L> = load_matrix(&state.loads.slope[l][0], at);
-        let force: Matrix<L> = load_matrix(&state.loads.slope[l][1], at);
-        let (r, p) = (&pose.rotation, &pose.position);
-        let by_turn = product(r, &add_hat(&force, minus, &load.second));
-        let by_shift = product(r, &add_hat(&zeros(), minus, &load.second));
-        let lever = cross_columns(p, &by_turn);
-        let by_moment = add_product(lever, r, &add_hat(&moment, minus, &load.first));
+        let Forms { angular: by_moment, linear: by_shift } = &moved.moment;
         for m in 0..stages {
             let map = load_map::<L>(&variation[m], at);
             let g = &mut self.g[l][m];
-            let angular = add_product(product(&by_moment, &map.diagonal), &by_shift, &map.lower);
-            store_matrix(&angular, &mut g[0], at);
-            if !state.is_stiff() {
-                store_matrix(&product(&by_shift, &map.diagonal), &mut g[1], at);
+            let mut angular = product(by_shift, &map.lower);
+            if turning {
+                angular = add_product(angular, by_moment, &map.diagonal);
+                store_matrix(&product(&moved.force, &map.diagonal), &mut g[2], at);
             }
-            store_matrix(&product(&by_turn, &map.diagonal), &mut g[2], at);
+            store_matrix(&angular, &mut g[0], at);
+            store_matrix(&product(by_shift, &map.diagonal), &mut g[1], at);
         }
+    }
+
+    /// g_lm by rotations alone: moment or force.
+    #[inline(always)]
+    pub(super) fn set_by_rotation<L: Lane>(
+        &mut self,
+        (l, m): (usize, usize),
+        force: bool,
+        g: &Matrix<L>,
+        at: usize,
+    ) {
+        store_matrix(g, &mut self.g[l][m][if force { 2 } else { 0 }], at);
+    }
+
+    /// e_l = Ad_l⁻ᵀ D_l Ad_l⁻¹.
+    #[inline(always)]
+    pub(super) fn set_turn<L: Lane>(&mut self, l: usize, pose: &Placed<L>, state: &Linearised, at: usize) {
+        let (r, p) = (&pose.rotation, &pose.position);
+        let [moment, force] = slope::<L>(state, l, at);
         let force = product(r, &product_transpose(&force, r));
         let moment = add_product(cross_columns(p, &force), r, &product_transpose(&moment, r));
         store_matrix(&moment, &mut self.e[l][0], at);
@@ -78,7 +90,7 @@ impl Terms {
         &mut self,
         table: &Table,
         poses: &[[super::Row; 12]; STAGES + 1],
-        (h, soft): (L, bool),
+        (h, soft, turning): (L, bool, bool),
         system: &mut System,
         strain: &mut [[BlockRows; 2]; STAGES],
         at: usize,
@@ -92,12 +104,16 @@ impl Terms {
                 for l in 0..stages {
                     let weight = h * L::splat(weights[l]);
                     for b in 0..3 {
-                        if soft || b != 1 {
+                        if [true, soft, turning][b] {
                             sum[b] = add_multiple(sum[b], weight, &load_matrix(&self.g[l][m][b], at));
                         }
                     }
                 }
-                let [angular, force] = brought(&pose, &sum[0], &sum[2]);
+                let [angular, force] = if turning {
+                    brought(&pose, &sum[0], &sum[2])
+                } else {
+                    [transpose_product(&pose.rotation, &sum[0]), sum[2]]
+                };
                 if k < stages {
                     add_to(&mut system.angular[k][m], &angular, at);
                 } else {
@@ -110,7 +126,9 @@ impl Terms {
                 let linear = transpose_product(&pose.rotation, &sum[1]);
                 if k < stages {
                     add_to(&mut system.from_linear[k][m], &linear, at);
-                    add_to(&mut system.to_linear[k][m], &force, at);
+                    if turning {
+                        add_to(&mut system.to_linear[k][m], &force, at);
+                    }
                 } else {
                     store_matrix(&linear, &mut self.end[m][1], at);
                 }
@@ -139,7 +157,8 @@ impl Terms {
     #[inline(always)]
     pub(super) fn take_from_end<L: Lane, const C: usize>(
         &self,
-        (stages, soft): (usize, bool),
+        stages: usize,
+        (soft, turning): (bool, bool),
         strain: &[[BlockRows; 2]; STAGES],
         from: usize,
         [moment, force]: &mut [[[L; C]; 3]; 2],
@@ -153,7 +172,9 @@ impl Terms {
                 let linear: [[L; C]; 3] = load_columns(&strain[l][1], from, at);
                 *moment = subtract_product(*moment, &load_matrix(&end[1], at), &linear);
             }
-            *force = subtract_product(*force, &load_matrix(&end[2], at), &angular);
+            if turning {
+                *force = subtract_product(*force, &load_matrix(&end[2], at), &angular);
+            }
         }
     }
 
@@ -169,6 +190,38 @@ impl Terms {
             }
         }
     }
+}
+
+/// Ad_l⁻ᵀ(D_l − L(f̄_l)): what a displacement of stage l makes of its load, brought to node i.
+pub(super) struct Moved<L> {
+    pub(super) moment: Forms<L>,
+    /// By the rotation: a force is not changed by a displacement.
+    pub(super) force: Matrix<L>,
+}
+
+impl<L: Lane> Moved<L> {
+    /// A load that is not `turning` keeps its force in space and has no moment: only its lever changes.
+    #[inline(always)]
+    pub(super) fn new(l: usize, pose: &Placed<L>, state: &Linearised, at: usize) -> Self {
+        let minus = L::splat(-1.0);
+        let load: Pair<L> = load_pair(&state.loads.wrench[l], at);
+        let (r, p) = (&pose.rotation, &pose.position);
+        let linear = product(r, &add_hat(&zeros(), minus, &load.second));
+        if !state.turning {
+            return Self { moment: Forms { angular: zeros(), linear }, force: zeros() };
+        }
+        let [moment, force] = slope(state, l, at);
+        let by_turn = product(r, &add_hat(&force, minus, &load.second));
+        let lever = cross_columns(p, &by_turn);
+        let angular = add_product(lever, r, &add_hat(&moment, minus, &load.first));
+        Self { moment: Forms { angular, linear }, force: by_turn }
+    }
+}
+
+/// D_l: moment and force by the rotation of the section.
+#[inline(always)]
+fn slope<L: Lane>(state: &Linearised, l: usize, at: usize) -> [Matrix<L>; 2] {
+    [load_matrix(&state.loads.slope[l][0], at), load_matrix(&state.loads.slope[l][1], at)]
 }
 
 /// Ad_gᵀ of columns of wrenches: Rᵀ(M − p × N), Rᵀ N.

@@ -1,7 +1,8 @@
 //! The Magnus vector, its exponential and its derivative, as in [`rod::magnus`](crate::rod::magnus) and [`lie::se3`](crate::lie::se3), on lanes.
 
 use super::algebra::{
-    Map, Matrix, Pair, Vector, add, add_scaled, cross, dot, from_parts, scale, transpose_times, zeros,
+    Forms, Map, Matrix, Pair, Vector, add, add_multiple, add_scaled, cross, dot, from_parts, scale,
+    transpose_times, zeros,
 };
 use super::rows::{Row, load_pair};
 use super::{STAGES, Taylor, Twists};
@@ -121,6 +122,38 @@ pub(super) fn exponent_derivative<L: Lane>(alpha: &[Pair<L>; STAGES], stages: us
         maps[2].add(L::splat(-SCALE / 30.0), &q1);
     }
     maps
+}
+
+/// R ∂Ω/∂α_j of forms R, for twists that are rotations alone, as many as there are stages.
+///
+/// Row vectors go through the brackets one after the other: fewer products than the matrices of [`exponent_derivative`] have entries.
+#[inline(always)]
+pub(super) fn forms_by_rotation<L: Lane>(
+    forms: &Forms<L>,
+    alpha: &[Pair<L>; STAGES],
+    stages: usize,
+) -> [Matrix<L>; STAGES] {
+    const SCALE: f64 = 1.0 / 240.0;
+    let k = L::splat;
+    let mut out = [forms.angular, zeros(), zeros()];
+    if stages == 2 {
+        out[0] = add_multiple(out[0], k(-1.0 / 12.0), &forms.angular_times_ad(&alpha[1]));
+        out[1] = add_multiple(out[1], k(1.0 / 12.0), &forms.angular_times_ad(&alpha[0]));
+    } else if stages > 2 {
+        let [inner, p, q] = factors(alpha);
+        let (by_p, by_q) = (forms.times_ad(&p), forms.times_ad(&q));
+        let by_q1 = by_q.times_ad(&alpha[0]);
+        let both = by_p.combined(SCALE, -SCALE / 60.0, &by_q1);
+        out[0] = add_multiple(out[0], k(-20.0 * SCALE), &by_p.angular);
+        out[0] = add_multiple(out[0], k(SCALE / 60.0), &by_q.angular_times_ad(&inner));
+        out[0] = add_multiple(out[0], k(1.0), &both.angular_times_ad(&alpha[1]));
+        out[1] = add_multiple(out[1], k(-SCALE), &by_q.angular);
+        out[1] = add_multiple(out[1], k(-1.0), &both.angular_times_ad(&alpha[0]));
+        out[2] = add_multiple(out[2], k(1.0 / 12.0), &forms.angular);
+        out[2] = add_multiple(out[2], k(-SCALE), &by_p.angular);
+        out[2] = add_multiple(out[2], k(-SCALE / 30.0), &by_q1.angular);
+    }
+    out
 }
 
 /// c₀ … c₅ by their series; where that does not hold, `suspect` is set.

@@ -26,7 +26,8 @@ use motion::Motions;
 use rows::{BlockRows, NO_BLOCK};
 
 pub(super) use answer::answer;
-pub(super) use eliminate::{LEAST_DETERMINANT, LEAST_STIFFNESS};
+pub(crate) use eliminate::LEAST_DETERMINANT;
+pub(super) use eliminate::LEAST_STIFFNESS;
 pub(crate) use linearised::{Linearised, Twists};
 pub(super) use magnus::stumpff;
 pub(crate) use rows::{ELEMENTS, NOTHING, Row};

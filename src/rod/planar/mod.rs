@@ -15,8 +15,8 @@ mod rows;
 pub(super) use answer::answer;
 pub(super) use condense::condense;
 pub(super) use condense::{Eliminated, columns};
-pub(crate) use motion::kinematics;
 pub(super) use motion::pose_of;
+pub(crate) use motion::{kinematics, wrenches};
 pub(super) use rows::Linearised;
 
 use crate::body::Constraint;

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::magnus::{exp, exponent, taylor_data};
 use super::rows::{Twists, store_pose};
-use crate::lie::{Pose, Twist};
+use crate::lie::{Pose, Twist, Wrench};
 use crate::rod::collocation::Collocation;
 use crate::rod::element::Kinematics;
 use crate::rod::lanes::{NOTHING, Row, STAGES, Table, run, stumpff};
@@ -67,6 +67,24 @@ pub(crate) fn kinematics<const S: usize>(
         }
         into.end = pose_of(&out.pose[S], i);
     }
+}
+
+/// As [`Kinematics::wrenches_without_load`], of an element in the plane and a wrench in it.
+pub(crate) fn wrenches<const S: usize>(
+    motion: &Kinematics<f64, S>,
+    at_end: &Wrench,
+    stage: &mut [Wrench; S],
+) -> Wrench {
+    let rotation = |pose: &Pose| (pose.rotation[(0, 0)], pose.rotation[(0, 2)]);
+    let wrench = |moment, z, x| Wrench::new(Vector3::new(0.0, moment, 0.0), Vector3::new(x, 0.0, z));
+    let ((cos, sin), p) = (rotation(&motion.end), &motion.end.position);
+    let (z, x) = (cos * at_end.force.z - sin * at_end.force.x, cos * at_end.force.x + sin * at_end.force.z);
+    let moment = at_end.moment.y + p.z * x - p.x * z;
+    for (stage, pose) in stage.iter_mut().zip(&motion.stage) {
+        let ((cos, sin), p) = (rotation(pose), &pose.position);
+        *stage = wrench(moment - (p.z * x - p.x * z), cos * z + sin * x, cos * x - sin * z);
+    }
+    wrench(moment, z, x)
 }
 
 #[inline(never)]
