@@ -120,14 +120,24 @@ fn main() -> Outcome {
     ];
 
     let ns = median_times(&cases, &strains, rounds);
+    report(&cases, &ns, &output)?;
+    println!(
+        "largest difference from the hand-derived values: {worst:.1e} of work, largest force or stiffness"
+    );
+    println!("{}", output.path("engine.csv").display());
+    Ok(())
+}
+
+/// Times of the cases and their ratios to code derived by hand and to num-dual, printed and as CSV.
+fn report(cases: &[Case<'_>], ns: &[f64], output: &Output) -> Outcome {
     let find = |name: &str| cases.iter().position(|c| c.name == name).map_or(f64::NAN, |k| ns[k]);
     println!(
         "{:<28}{:>7}{:>10}{:>16}{:>16}{:>14}",
         "case", "points", "ns", "/ hand scalar", "/ hand vector", "/ num-dual"
     );
     let mut csv = String::from("case,points,ns,ratio_to_hand_scalar,ratio_to_num_dual\n");
-    for (case, &time) in cases.iter().zip(&ns) {
-        let prefix = if case.law == Neo { "log " } else { "" };
+    for (case, &time) in cases.iter().zip(ns) {
+        let prefix = if case.law == Law::NeoHookean { "log " } else { "" };
         let against = |other: &str| time / find(&format!("{prefix}{other}"));
         let (hand, vector) = (against("hand scalar"), against("hand vectorised"));
         // the quicker of the two ways of using it
@@ -136,10 +146,6 @@ fn main() -> Outcome {
         csv += &format!("{},{},{time:?},{hand:?},{dual:?}\n", case.name, case.points);
     }
     std::fs::write(output.path("engine.csv"), csv)?;
-    println!(
-        "largest difference from the hand-derived values: {worst:.1e} of work, largest force or stiffness"
-    );
-    println!("{}", output.path("engine.csv").display());
     Ok(())
 }
 

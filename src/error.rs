@@ -202,3 +202,28 @@ pub enum PolygonError {
 
 /// Result with this crate's [`enum@Error`].
 pub type Result<T, E = Error> = std::result::Result<T, E>;
+
+/// Refuses a number that does not meet its requirement.
+pub(crate) fn require(
+    met: bool,
+    quantity: &'static str,
+    value: f64,
+    requirement: &'static str,
+) -> Result<()> {
+    if met { Ok(()) } else { Err(Error::Invalid { quantity, value, requirement }) }
+}
+
+/// Refuses a number that is not positive and finite.
+pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<()> {
+    require(value > 0.0 && value.is_finite(), quantity, value, "positive and finite")
+}
+
+/// Refuses a number that is negative or not finite.
+pub(crate) fn not_negative(quantity: &'static str, value: f64) -> Result<()> {
+    require(value >= 0.0 && value.is_finite(), quantity, value, "finite and not negative")
+}
+
+/// Refuses numbers of which one is not finite, by that one.
+pub(crate) fn finite<'a>(quantity: &'static str, values: impl IntoIterator<Item = &'a f64>) -> Result<()> {
+    values.into_iter().try_for_each(|&value| require(value.is_finite(), quantity, value, "finite"))
+}

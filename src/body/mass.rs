@@ -1,7 +1,7 @@
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use super::Body;
-use crate::error::{Error, Result};
+use crate::error::{Result, positive};
 use crate::lie::so3::hat;
 use crate::material::Station;
 use crate::section::{CrossSection, Geometry};
@@ -18,22 +18,17 @@ pub struct Density(f64);
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineDensity(f64);
 
-fn positive(quantity: &'static str, value: f64) -> Result<f64> {
-    if value > 0.0 && value.is_finite() {
-        return Ok(value);
-    }
-    Err(Error::Invalid { quantity, value, requirement: "positive and finite" })
-}
-
 impl Density {
     pub(super) fn new(density: f64) -> Result<Self> {
-        Ok(Self(positive("density", density)?))
+        positive("density", density)?;
+        Ok(Self(density))
     }
 }
 
 impl LineDensity {
     pub(super) fn new(mass: f64) -> Result<Self> {
-        Ok(Self(positive("mass per length", mass)?))
+        positive("mass per length", mass)?;
+        Ok(Self(mass))
     }
 }
 

@@ -19,7 +19,7 @@ pub use viscosity::{Dissipative, IsotropicViscosity, ViscosityMatrix, ViscosityM
 
 use num_dual::Dual64;
 
-use crate::error::{Error, Result};
+use crate::error::{Result, positive};
 use crate::lie::{Strain, Twist};
 use crate::material::{Reference, Request, Response, Station};
 use crate::section::CrossSection;
@@ -50,10 +50,7 @@ impl<C: CrossSection> Body<C> {
     /// # Errors
     /// If the length is not positive and finite.
     pub fn new(length: f64, section: C) -> Result<Self> {
-        if !(length > 0.0 && length.is_finite()) {
-            let quantity = "length of the body";
-            return Err(Error::Invalid { quantity, value: length, requirement: "positive and finite" });
-        }
+        positive("length of the body", length)?;
         Ok(Self {
             length,
             section,

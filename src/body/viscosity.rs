@@ -1,7 +1,7 @@
 use nalgebra::Matrix6;
 
 use super::{Body, Constraint, Elastic, HasArea, HasMass, LineMass};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, not_negative};
 use crate::lie::Strain;
 use crate::material::{Reference, Request, Response};
 use crate::section::{AreaMoments, CrossSection, Geometry};
@@ -129,10 +129,7 @@ impl<C: CrossSection, M: Send + Sync> Body<C, M> {
     where
         C: Geometry,
     {
-        if !(mu >= 0.0 && mu.is_finite()) {
-            let quantity = "viscosity";
-            return Err(Error::Invalid { quantity, value: mu, requirement: "finite and not negative" });
-        }
+        not_negative("viscosity", mu)?;
         Ok(Viscous { body: self, viscosity: IsotropicViscosity(mu) })
     }
 

@@ -3,7 +3,7 @@ use nalgebra::Vector3;
 use super::dead_wrench::dead;
 use super::{Load, LoadWrench};
 use crate::body::HasArea;
-use crate::error::{Error, Result};
+use crate::error::{Result, finite, not_negative};
 use crate::lie::{Pose, so3::hat};
 
 /// Lift of a fluid at rest around the rod: per length of the reference, the weight of the fluid in the volume of the reference, upwards.
@@ -40,16 +40,8 @@ impl Buoyancy {
     /// # Errors
     /// If the density is negative, or one of the numbers not finite.
     pub fn new(fluid_density: f64, acceleration: Vector3<f64>) -> Result<Self> {
-        if !(fluid_density >= 0.0 && fluid_density.is_finite()) {
-            let (quantity, requirement) = ("density of the fluid", "finite and not negative");
-            return Err(Error::Invalid { quantity, value: fluid_density, requirement });
-        }
-        for &value in &acceleration {
-            if !value.is_finite() {
-                let quantity = "component of the acceleration of gravity";
-                return Err(Error::Invalid { quantity, value, requirement: "finite" });
-            }
-        }
+        not_negative("density of the fluid", fluid_density)?;
+        finite("component of the acceleration of gravity", &acceleration)?;
         Ok(Self { fluid_weight: acceleration * fluid_density })
     }
 }

@@ -1,7 +1,7 @@
 use nalgebra::{Matrix6, Vector3};
 
 use super::{LoadWrench, TipLoad};
-use crate::error::{Error, Result};
+use crate::error::{Result, finite};
 use crate::lie::{Pose, Wrench};
 
 /// A moment and a force with fixed direction and size in space: a hanging weight, a pull along a line.
@@ -27,12 +27,7 @@ impl DeadWrench {
     /// # Errors
     /// If a component is not finite.
     pub fn new(moment: Vector3<f64>, force: Vector3<f64>) -> Result<Self> {
-        for &value in moment.iter().chain(&force) {
-            if !value.is_finite() {
-                let quantity = "component of a dead wrench";
-                return Err(Error::Invalid { quantity, value, requirement: "finite" });
-            }
-        }
+        finite("component of a dead wrench", moment.iter().chain(&force))?;
         Ok(Self { moment, force })
     }
 

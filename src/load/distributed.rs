@@ -2,7 +2,7 @@ use nalgebra::Matrix6;
 
 use super::dead_wrench::dead;
 use super::{Load, LoadWrench};
-use crate::error::{Error, Result};
+use crate::error::{Result, finite};
 use crate::lie::{Pose, Wrench};
 
 /// A wrench per length along the rod: the same everywhere, or a closure of s.
@@ -60,20 +60,14 @@ pub struct DeadLoad<F = Wrench>(F);
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FollowerLoad<F = Wrench>(F);
 
-fn finite(quantity: &'static str, wrench: Wrench) -> Result<Wrench> {
-    match wrench.to_array().into_iter().find(|v| !v.is_finite()) {
-        None => Ok(wrench),
-        Some(value) => Err(Error::Invalid { quantity, value, requirement: "finite" }),
-    }
-}
-
 impl DeadLoad {
     /// The same everywhere: moment per length, N, and force per length, N/m, in space.
     ///
     /// # Errors
     /// If a component is not finite.
     pub fn new(wrench: Wrench) -> Result<Self> {
-        Ok(Self(finite("component of a dead load", wrench)?))
+        finite("component of a dead load", &wrench.to_array())?;
+        Ok(Self(wrench))
     }
 }
 
@@ -90,7 +84,8 @@ impl FollowerLoad {
     /// # Errors
     /// If a component is not finite.
     pub fn new(wrench: Wrench) -> Result<Self> {
-        Ok(Self(finite("component of a follower load", wrench)?))
+        finite("component of a follower load", &wrench.to_array())?;
+        Ok(Self(wrench))
     }
 }
 

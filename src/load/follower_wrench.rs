@@ -1,7 +1,7 @@
 use nalgebra::{Matrix6, Vector3};
 
 use super::{LoadWrench, TipLoad};
-use crate::error::{Error, Result};
+use crate::error::{Result, finite};
 use crate::lie::{Pose, Wrench};
 
 /// A moment and a force that turn with the section they act on: a thruster, a torque wrench.
@@ -27,14 +27,8 @@ impl FollowerWrench {
     /// # Errors
     /// If a component is not finite.
     pub fn new(moment: Vector3<f64>, force: Vector3<f64>) -> Result<Self> {
-        let wrench = Wrench::new(moment, force);
-        match wrench.to_array().into_iter().find(|v| !v.is_finite()) {
-            None => Ok(Self { wrench }),
-            Some(value) => {
-                let quantity = "component of a follower wrench";
-                Err(Error::Invalid { quantity, value, requirement: "finite" })
-            }
-        }
+        finite("component of a follower wrench", moment.iter().chain(&force))?;
+        Ok(Self { wrench: Wrench::new(moment, force) })
     }
 
     /// A force alone, N, in the body frame.

@@ -2,7 +2,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::dead_wrench::dead;
 use super::{Load, LoadWrench};
-use crate::error::{Error, Result};
+use crate::error::{Result, not_negative};
 use crate::lie::Pose;
 
 /// Springs along the rod that pull every section back to its place at rest: a bed of soil, a sheath (Winkler's foundation).
@@ -33,12 +33,7 @@ impl<P: Fn(f64) -> Vector3<f64> + Send + Sync> ElasticFoundation<P> {
     /// # Errors
     /// If a stiffness is negative or not finite.
     pub fn new(stiffness: Vector3<f64>, rest: P) -> Result<Self> {
-        for &value in &stiffness {
-            if !(value >= 0.0 && value.is_finite()) {
-                let (quantity, requirement) = ("stiffness of a foundation", "finite and not negative");
-                return Err(Error::Invalid { quantity, value, requirement });
-            }
-        }
+        stiffness.iter().try_for_each(|&value| not_negative("stiffness of a foundation", value))?;
         Ok(Self { stiffness, rest })
     }
 }

@@ -3,7 +3,7 @@ use nalgebra::{Vector3, vector};
 use super::dead_wrench::dead;
 use super::{Load, LoadWrench};
 use crate::body::{HasMass, LineMass};
-use crate::error::{Error, Result};
+use crate::error::{Result, finite};
 use crate::lie::{Pose, so3::hat};
 
 /// Weight: per length of the reference, the force of gravity on its mass, through the centre of that mass.
@@ -35,12 +35,7 @@ impl Gravity {
     /// # Errors
     /// If a component is not finite.
     pub fn new(acceleration: Vector3<f64>) -> Result<Self> {
-        for &value in &acceleration {
-            if !value.is_finite() {
-                let quantity = "component of the acceleration of gravity";
-                return Err(Error::Invalid { quantity, value, requirement: "finite" });
-            }
-        }
+        finite("component of the acceleration of gravity", &acceleration)?;
         Ok(Self { acceleration })
     }
 

@@ -1,7 +1,7 @@
-//! Loads: what acts on a rod per length or at its tip, with exact derivatives.
+//! Loads: what acts on a rod per length or on one of its sections, with exact derivatives.
 //!
-//! A distributed load is a [`Load`] on bodies that have what it needs; a [`TipLoad`] acts at the free end. Both are given in the body frame of
-//! the section they act on, with their derivative in a small displacement ζ of that frame.
+//! A distributed load is a [`Load`] on bodies that have what it needs; a [`TipLoad`] acts on one section, the tip or any other. Both are given in the body
+//! frame of the section they act on, with their derivative in a small displacement ζ of that frame.
 //!
 //! | load | acts on | needs of the body | potential |
 //! |---|---|---|---|
@@ -105,14 +105,14 @@ pub trait Load<B: ?Sized>: Send + Sync {
     fn at(&self, body: &B, s: f64, pose: &Pose) -> Result<LoadWrench>;
 }
 
-/// A wrench on the tip of the rod.
+/// A wrench on one section of the rod: its tip, its base or one between.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a load on a point of a rod",
     label = "a load on a point is needed here",
     note = "loads are in `hyperrod::load`; one per length goes to `with_load`; one of your own implements `TipLoad`, or is a closure in `load::at_tip`"
 )]
 pub trait TipLoad: Send + Sync {
-    /// The load on a tip at `pose`: N m and N.
+    /// The load on a section at `pose`: N m and N.
     ///
     /// # Errors
     /// Where the load is not defined.

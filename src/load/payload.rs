@@ -2,7 +2,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use super::dead_wrench::dead;
 use super::{LoadWrench, TipLoad};
-use crate::error::{Error, Result};
+use crate::error::{Result, finite, not_negative, require};
 use crate::lie::{Pose, so3::hat};
 
 /// A rigid body fixed to a section: its weight, through its centre of mass, and in motion its inertia.
@@ -41,10 +41,7 @@ impl Payload {
     /// # Errors
     /// If the mass is negative or not finite.
     pub fn new(mass: f64) -> Result<Self> {
-        if !(mass >= 0.0 && mass.is_finite()) {
-            let quantity = "mass of a payload";
-            return Err(Error::Invalid { quantity, value: mass, requirement: "zero or more, and finite" });
-        }
+        not_negative("mass of a payload", mass)?;
         let (centre, gravity) = (Vector3::zeros(), Vector3::new(0.0, 0.0, -9.80665));
         Ok(Self { mass, centre, moments: Matrix3::zeros(), gravity })
     }
@@ -54,20 +51,13 @@ impl Payload {
     /// # Errors
     /// If the matrix is not finite, not symmetric, or has a negative principal moment.
     pub fn with_inertia(self, moments: Matrix3<f64>) -> Result<Self> {
-        let invalid =
-            |value, requirement| Err(Error::Invalid { quantity: "inertia of a payload", value, requirement });
-        if let Some(&value) = moments.iter().find(|value| !value.is_finite()) {
-            return invalid(value, "finite");
-        }
+        let quantity = "inertia of a payload";
+        finite(quantity, &moments)?;
         let size = moments.norm();
         let skew = (moments - moments.transpose()).norm();
-        if skew > 1e-12 * size {
-            return invalid(skew, "symmetric");
-        }
+        require(skew <= 1e-12 * size, quantity, skew, "symmetric")?;
         let least = moments.symmetric_eigenvalues().min();
-        if least < -1e-12 * size {
-            return invalid(least, "without a negative principal moment");
-        }
+        require(least >= -1e-12 * size, quantity, least, "without a negative principal moment")?;
         Ok(Self { moments, ..self })
     }
 
@@ -76,7 +66,8 @@ impl Payload {
     /// # Errors
     /// If a component is not finite.
     pub fn with_centre(self, centre: Vector3<f64>) -> Result<Self> {
-        Ok(Self { centre: finite("component of the centre of a payload", centre)?, ..self })
+        finite("component of the centre of a payload", &centre)?;
+        Ok(Self { centre, ..self })
     }
 
     /// The same under another acceleration of gravity in space, m/s².
@@ -84,14 +75,8 @@ impl Payload {
     /// # Errors
     /// If a component is not finite.
     pub fn with_gravity(self, acceleration: Vector3<f64>) -> Result<Self> {
-        Ok(Self { gravity: finite("component of the acceleration of gravity", acceleration)?, ..self })
-    }
-}
-
-fn finite(quantity: &'static str, v: Vector3<f64>) -> Result<Vector3<f64>> {
-    match v.iter().find(|value| !value.is_finite()) {
-        Some(&value) => Err(Error::Invalid { quantity, value, requirement: "finite" }),
-        None => Ok(v),
+        finite("component of the acceleration of gravity", &acceleration)?;
+        Ok(Self { gravity: acceleration, ..self })
     }
 }
 

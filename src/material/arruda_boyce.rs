@@ -1,7 +1,6 @@
-use super::constants::{positive, require};
 use super::kinematics::{Invariants, Point};
 use super::law::Isotropic;
-use crate::error::Result;
+use crate::error::{Result, positive, require};
 use crate::scalar::{Scalar, x_minus_ln_1p};
 
 /// The eight-chain model of Arruda and Boyce, in the five-term series of the inverse Langevin function.

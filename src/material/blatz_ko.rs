@@ -1,7 +1,6 @@
-use super::constants::{positive, require};
 use super::kinematics::{Invariants, Point};
 use super::law::Isotropic;
-use crate::error::Result;
+use crate::error::{Result, positive, require};
 use crate::scalar::{Scalar, exp_m1_minus_x, x_minus_ln_1p};
 
 /// Blatz and Ko's law of foamed rubber.

@@ -1,7 +1,6 @@
 //! The coefficients C_ij and D_k of the polynomial family, checked, sorted and summed by Horner's rule.
 
-use super::constants::require_coefficient;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::scalar::Scalar;
 
 /// One entry of a table: the powers (i, j) and the coefficient C_ij, Pa.
@@ -94,4 +93,14 @@ impl CoefficientTable {
         let e_squared = e * e;
         self.d.iter().rev().fold(D::zero(), |sum, &d| (sum + d) * e_squared)
     }
+}
+
+/// Refuses a coefficient of a table that does not meet its requirement; `name` is called only then.
+pub(super) fn require_coefficient(
+    met: bool,
+    name: impl FnOnce() -> String,
+    value: f64,
+    requirement: &'static str,
+) -> Result<()> {
+    if met { Ok(()) } else { Err(Error::Coefficient { name: name(), value, requirement }) }
 }

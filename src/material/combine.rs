@@ -1,9 +1,8 @@
 //! Laws made of laws: sums and multiples.
 
-use super::constants::require;
 use super::kinematics::{Deformation, Point};
 use super::law::Local;
-use crate::error::Result;
+use crate::error::{Result, require};
 use crate::scalar::Scalar;
 
 /// The sum of two laws, u = u₁ + u₂: two constituents that share one deformation. Nest it for more.

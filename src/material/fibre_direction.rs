@@ -1,8 +1,7 @@
 use nalgebra::Vector3;
 
-use super::constants::require;
 use super::kinematics::Point;
-use crate::error::Result;
+use crate::error::{Result, require};
 use crate::scalar::Scalar;
 
 /// The direction of fibres in the reference, a unit vector that may depend on the point.

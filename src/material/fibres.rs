@@ -1,8 +1,7 @@
-use super::constants::positive;
 use super::fibre_direction::FibreDirection;
 use super::kinematics::{Deformation, Point};
 use super::law::Local;
-use crate::error::Result;
+use crate::error::{Result, positive};
 use crate::scalar::Scalar;
 
 /// One family of exponential fibres that carry tension only.

@@ -1,7 +1,6 @@
-use super::constants::positive;
 use super::kinematics::{Invariants, Point};
 use super::law::Isotropic;
-use crate::error::Result;
+use crate::error::{Result, positive};
 use crate::scalar::Scalar;
 
 /// The exponential law of soft tissue, u = μ/2b (exp(b(Ī₁ − 3)) − 1) + κ/2 (J − 1)².

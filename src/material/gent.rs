@@ -1,7 +1,6 @@
-use super::constants::{positive, require};
 use super::kinematics::{Invariants, Point};
 use super::law::Isotropic;
-use crate::error::Result;
+use crate::error::{Result, positive, require};
 use crate::scalar::{Scalar, x_minus_ln_1p};
 
 /// Gent's law of limited chain extensibility, u = −μJm/2 ln(1 − (I₁ − 3 − 2 ln J)/Jm) + λ/2 (ln J)².

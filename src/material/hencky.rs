@@ -1,7 +1,6 @@
-use super::constants::positive;
 use super::kinematics::{Deformation, Point};
 use super::law::Local;
-use crate::error::Result;
+use crate::error::{Result, positive};
 use crate::scalar::Scalar;
 
 /// Hencky's law, quadratic in the logarithmic strain: u = μ Σ (ln λᵢ)² + λ/2 (ln J)².

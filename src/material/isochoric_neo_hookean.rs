@@ -1,7 +1,6 @@
-use super::constants::positive;
 use super::kinematics::{Invariants, Point};
 use super::law::Isotropic;
-use crate::error::Result;
+use crate::error::{Result, positive};
 use crate::scalar::Scalar;
 
 /// The other common compressible neo-Hookean law, u = μ/2 (Ī₁ − 3) + κ/2 (J − 1)², with Ī₁ = J^(−2/3) I₁.

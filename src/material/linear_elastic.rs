@@ -1,7 +1,7 @@
 use super::compiled_here::compiled_here;
 use super::kinematics::{Deformation, Point};
 use super::law::Sectional;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, positive};
 use crate::lie::Strain;
 use crate::scalar::Scalar;
 
@@ -29,9 +29,7 @@ impl LinearElastic {
     /// If either is not positive and finite.
     pub fn new(young: f64, shear: f64) -> Result<Self> {
         for (quantity, value) in [("Young's modulus", young), ("shear modulus", shear)] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(Error::Invalid { quantity, value, requirement: "positive and finite" });
-            }
+            positive(quantity, value)?;
         }
         Ok(Self { young, shear })
     }

@@ -46,7 +46,6 @@ mod closure;
 mod coefficient_table;
 mod combine;
 mod compiled_here;
-mod constants;
 mod diagnose;
 mod differentiate;
 mod fibre_direction;

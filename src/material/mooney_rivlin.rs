@@ -1,7 +1,7 @@
 use super::compiled_here::compiled_here;
 use super::kinematics::{Invariants, Point};
 use super::law::Isotropic;
-use crate::error::{Error, Result};
+use crate::error::{Result, positive};
 use crate::scalar::Scalar;
 
 /// Mooney–Rivlin as the source text writes it, u = C₁(I₁−3) + C₂(I₂−3).
@@ -40,9 +40,7 @@ impl MooneyRivlin {
             ("Mooney-Rivlin axial modulus 2 C1 + 4 C2", law.axial_modulus()),
             ("Mooney-Rivlin shear modulus 2 C1 + 2 C2", law.shear_modulus()),
         ] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(Error::Invalid { quantity, value, requirement: "positive and finite" });
-            }
+            positive(quantity, value)?;
         }
         Ok(law)
     }

@@ -1,7 +1,7 @@
 use super::compiled_here::compiled_here;
 use super::kinematics::{Invariants, Point};
 use super::law::Isotropic;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, positive};
 use crate::scalar::{Scalar, x_minus_ln_1p};
 
 /// Compressible neo-Hookean law, u = μ/2 (I₁ − 3 − 2 ln J) + λ/2 (ln J)².
@@ -30,9 +30,7 @@ impl NeoHookean {
     pub fn new(mu: f64, lambda: f64) -> Result<Self> {
         let bulk = lambda + 2.0 / 3.0 * mu;
         for (quantity, value) in [("shear modulus mu", mu), ("bulk modulus lambda + 2 mu / 3", bulk)] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(Error::Invalid { quantity, value, requirement: "positive and finite" });
-            }
+            positive(quantity, value)?;
         }
         Ok(Self { mu, lambda })
     }

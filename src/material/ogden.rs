@@ -1,7 +1,7 @@
-use super::constants::{positive, require, require_coefficient};
+use super::coefficient_table::require_coefficient;
 use super::kinematics::{Deformation, Point};
 use super::law::Local;
-use crate::error::Result;
+use crate::error::{Result, positive, require};
 use crate::scalar::Scalar;
 
 /// Ogden's law in the principal stretches, u = Σ μ_p/α_p (Σᵢ λᵢ^α_p − 3 − α_p ln J) + λ/2 (ln J)².

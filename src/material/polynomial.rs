@@ -26,6 +26,8 @@ use crate::scalar::Scalar;
 /// let c = [((1, 0), 100e3), ((0, 1), 30e3), ((2, 0), 20e3)];
 /// let rubber = ReferencePressure(Polynomial::new(&c, &[500e3])?);
 /// assert!(Polynomial::new(&[((0, 0), 1.0)], &[]).is_err());
+/// let three = Polynomial::new(&[((1, 0), 100e3), ((0, 1), 30e3), ((1, 1), 20e3)], &[500e3])?;
+/// assert_eq!(Polynomial::mooney_rivlin_3([100e3, 30e3, 20e3], 500e3)?, three);
 /// # let _ = rubber; Ok(()) }
 /// ```
 ///

@@ -1,7 +1,6 @@
-use super::constants::positive;
 use super::kinematics::{Invariants, Point};
 use super::law::Isotropic;
-use crate::error::Result;
+use crate::error::{Result, positive};
 use crate::scalar::Scalar;
 
 /// Saint-Venant–Kirchhoff, quadratic in the Green strain E = (FᵀF − I)/2: u = λ/2 (tr E)² + μ E:E.

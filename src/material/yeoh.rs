@@ -1,7 +1,6 @@
-use super::constants::{positive, require};
 use super::kinematics::{Invariants, Point};
 use super::law::Isotropic;
-use crate::error::Result;
+use crate::error::{Result, positive, require};
 use crate::scalar::Scalar;
 
 /// Yeoh's law, u = Σ C_k (Ī₁−3)ᵏ + Σ D_k (J−1)²ᵏ, k = 1, 2, 3: filled rubber, from one kind of test.

@@ -1,6 +1,6 @@
 use super::CrossSection;
 use super::geometry::{AreaMoments, Geometry};
-use crate::error::{Error, Result};
+use crate::error::{Result, not_negative};
 use crate::lie::Strain;
 use crate::material::{Request, Response, Station};
 
@@ -49,10 +49,7 @@ impl Composite {
         section: impl CrossSection + Geometry + 'static,
         factor: f64,
     ) -> Result<Self> {
-        if !(factor >= 0.0 && factor.is_finite()) {
-            let quantity = "relative density of a part";
-            return Err(Error::Invalid { quantity, value: factor, requirement: "finite and not negative" });
-        }
+        not_negative("relative density of a part", factor)?;
         self.parts.push((Box::new(section), factor));
         Ok(self)
     }

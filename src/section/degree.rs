@@ -1,7 +1,7 @@
 //! Which degree of quadrature a section needs: for a law that is no polynomial, or about a reference that is curved.
 
 use super::shape::Shape;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, positive};
 use crate::lie::Strain;
 use crate::material::{Material, Points, Request, Response, Station};
 
@@ -56,9 +56,7 @@ impl StrainRange {
         for (quantity, value) in
             [("axial strain of a range", self.axial), ("shear strain of a range", self.shear)]
         {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(Error::Invalid { quantity, value, requirement: "positive and finite" });
-            }
+            positive(quantity, value)?;
         }
         Ok(())
     }

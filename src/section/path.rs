@@ -1,7 +1,7 @@
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 
 use super::CrossSection;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, positive};
 use crate::lie::{Strain, Wrench};
 use crate::material::{Request, Station};
 
@@ -105,9 +105,7 @@ impl WrenchPath {
             ("step of a path", options.step),
             ("wrench of a path", direction.to_vector().norm()),
         ] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(Error::Invalid { quantity, value, requirement: "positive and finite" });
-            }
+            positive(quantity, value)?;
         }
         let rest = section.respond(at, &Strain::zero(), Request::Tangent)?;
         let singular = Error::Singular { matrix: "tangent of the section at rest", s: at.s };

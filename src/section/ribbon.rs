@@ -1,5 +1,5 @@
 use super::resultant::Resultant;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, positive};
 use crate::lie::Strain;
 use crate::scalar::Scalar;
 
@@ -40,9 +40,7 @@ impl Ribbon {
             ("thickness of the ribbon", thickness),
             ("Young's modulus of the ribbon", young),
         ] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(Error::Invalid { quantity, value, requirement: "positive and finite" });
-            }
+            positive(quantity, value)?;
         }
         if !(poisson > -1.0 && poisson <= 0.5) {
             let quantity = "Poisson's ratio of the ribbon";

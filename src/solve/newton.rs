@@ -89,6 +89,18 @@ pub(crate) struct Outcome<const S: usize> {
 }
 
 impl<const S: usize> Outcome<S> {
+    fn begin(unknowns: Unknowns<S>) -> Self {
+        Self {
+            unknowns,
+            state: None,
+            residual: f64::INFINITY,
+            iterations: 0,
+            failure: None,
+            least_stiffness: 0.0,
+            last_step: f64::INFINITY,
+        }
+    }
+
     /// Gives the memory of the state back.
     pub(crate) fn recycle(self, buffers: &mut Buffers<S>) {
         if let Some(state) = self.state {
@@ -106,15 +118,7 @@ impl Newton<'_> {
         buffers: &mut Buffers<S>,
         history: &mut Vec<Iteration>,
     ) -> Outcome<S> {
-        let mut out = Outcome {
-            unknowns: start,
-            state: None,
-            residual: f64::INFINITY,
-            iterations: 0,
-            failure: None,
-            least_stiffness: 0.0,
-            last_step: f64::INFINITY,
-        };
+        let mut out = Outcome::begin(start);
         let mut state = buffers.configuration();
         if let Err(error) = mesh.configure(&out.unknowns, &mut state) {
             out.failure = Some(Reason::Start(error));
@@ -123,41 +127,23 @@ impl Newton<'_> {
         let mut trial = buffers.configuration();
         let mut previous = f64::INFINITY;
         out.residual = relative_residual(&state, &scale(mesh, &state));
-        for iteration in 0..self.max_iterations {
-            let scale = scale(mesh, &state);
-            let step = match buffers.newton_step(mesh, &out.unknowns, &state, &scale) {
-                Ok(step) => step,
-                Err(error) => {
-                    out.failure = Some(Reason::Singular { iteration, error });
-                    break;
-                }
-            };
-            let cap = if step.rotation > ROTATION_CAP { ROTATION_CAP / step.rotation } else { 1.0 };
-            let fraction = match admissible(mesh, &out.unknowns, buffers, cap, &mut trial) {
+        for _ in 0..self.max_iterations {
+            let fraction = match self.step(mesh, &mut out, &mut state, &mut trial, buffers, history) {
                 Ok(fraction) => fraction,
-                Err((fraction, error)) => {
-                    out.failure = Some(Reason::NoAdmissibleStep { iteration, fraction, error });
+                Err(reason) => {
+                    out.failure = Some(reason);
                     break;
                 }
             };
-            std::mem::swap(&mut out.unknowns, &mut buffers.trial);
-            std::mem::swap(&mut state, &mut trial);
-            out.iterations += 1;
-            (out.least_stiffness, out.last_step) = (buffers.least_stiffness, step.size);
-            self.record(mesh.elements(), out.residual, &step, fraction, history);
-            let full = fraction == 1.0;
-            if step.size > ROUNDING_STEP {
-                self.amplification = self.amplification.max(step.size / out.residual.max(f64::MIN_POSITIVE));
-            }
-            out.residual = relative_residual(&state, &scale);
+            let (full, size) = (fraction == 1.0, out.last_step);
             let next = AMPLIFIED * self.amplification * out.residual;
-            let stalled = step.size < ROUNDING_STEP && step.size > 0.5 * previous;
-            if full && (self.stop.reached(step.size, previous, next) || stalled) {
+            let stalled = size < ROUNDING_STEP && size > 0.5 * previous;
+            if full && (self.stop.reached(size, previous, next) || stalled) {
                 out.state = Some(state);
                 buffers.recycle(trial);
                 return out;
             }
-            previous = if full { step.size } else { f64::INFINITY };
+            previous = if full { size } else { f64::INFINITY };
         }
         if out.failure.is_none() {
             let step = history.last().map_or(f64::NAN, |i| i.step);
@@ -166,6 +152,35 @@ impl Newton<'_> {
         }
         out.state = Some(state);
         out
+    }
+
+    /// Moves `out` and `state` by the longest admissible part of a Newton step, and returns that part.
+    fn step<B: Elastic, const S: usize>(
+        &mut self,
+        mesh: &Mesh<'_, B, S>,
+        out: &mut Outcome<S>,
+        state: &mut Configuration<S>,
+        trial: &mut Configuration<S>,
+        buffers: &mut Buffers<S>,
+        history: &mut Vec<Iteration>,
+    ) -> Result<f64, Reason> {
+        let (iteration, scale) = (out.iterations, scale(mesh, state));
+        let step = buffers
+            .newton_step(mesh, &out.unknowns, state, &scale)
+            .map_err(|error| Reason::Singular { iteration, error })?;
+        let cap = if step.rotation > ROTATION_CAP { ROTATION_CAP / step.rotation } else { 1.0 };
+        let fraction = admissible(mesh, &out.unknowns, buffers, cap, trial)
+            .map_err(|(fraction, error)| Reason::NoAdmissibleStep { iteration, fraction, error })?;
+        std::mem::swap(&mut out.unknowns, &mut buffers.trial);
+        std::mem::swap(state, trial);
+        out.iterations += 1;
+        (out.least_stiffness, out.last_step) = (buffers.least_stiffness, step.size);
+        self.record(mesh.elements(), out.residual, &step, fraction, history);
+        if step.size > ROUNDING_STEP {
+            self.amplification = self.amplification.max(step.size / out.residual.max(f64::MIN_POSITIVE));
+        }
+        out.residual = relative_residual(state, &scale);
+        Ok(fraction)
     }
 
     fn record(

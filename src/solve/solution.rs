@@ -39,12 +39,12 @@ impl StaticSolution {
         &self.stages
     }
 
-    /// The node at the free end.
+    /// The node at the tip, s = L.
     pub fn tip(&self) -> &Node {
         &self.nodes[self.nodes.len() - 1]
     }
 
-    /// The node at the clamp.
+    /// The node at the base, s = 0.
     pub fn base(&self) -> &Node {
         &self.nodes[0]
     }

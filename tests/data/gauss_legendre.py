@@ -1,4 +1,4 @@
-"""Gauss-Legendre nodes x >= 0 and weights on [-1, 1] to 25 digits, for tests/quadrature.rs.
+"""Gauss-Legendre nodes x >= 0 and weights on [-1, 1] to 25 digits, for tests/quadrature/line.rs.
 
     python3 gauss_legendre.py > gauss_legendre.txt
 """

@@ -3,6 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use crate::battery::{self, Expected};
+use crate::section_reference::relaxed_fibre;
 use hyperrod::Scalar;
 use hyperrod::material::*;
 
@@ -51,17 +52,6 @@ conforms!(sum_of_scaled, Sum(Scaled::new(0.25, NeoHookean::new(MU, LAMBDA).unwra
         Scaled::new(2.0, Ogden::new(&[(MU, 2.0)], LAMBDA).unwrap()).unwrap()),
     shear: 2.25 * MU, axial: 2.25 * RIGID);
 conforms!(relaxed_fibre, relaxed_fibre(120e3, 40e3), shear: 320e3, axial: 960e3);
-
-/// A user's law: an incompressible Mooney–Rivlin fibre free to contract, lateral stretch c^(−1/2).
-fn relaxed_fibre(c1: f64, c2: f64) -> impl Isotropic {
-    hyperrod::isotropic!([c1: f64, c2: f64] |i, _at| {
-        let (e, c) = (i.j(), i.j() + 1.0);
-        let shear = i.i1_excess() - e * e;
-        let i1 = shear + e * e * (e + 3.0) / c;
-        let i2 = (shear + e * e * (e * 2.0 + 3.0) / c) / c;
-        i1 * c1 + i2 * c2
-    })
-}
 
 /// The series of Arruda and Boyce (1993), typed in from the text.
 fn arruda_boyce_shear(m: f64) -> f64 {

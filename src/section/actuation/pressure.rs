@@ -3,7 +3,7 @@ use num_dual::Dual64;
 
 use super::Actuator;
 use super::routing::{Routing, path};
-use crate::error::{Error, Result};
+use crate::error::{Result, finite, positive};
 use crate::lie::Twist;
 use crate::scalar::Scalar;
 use crate::section::Profile;
@@ -38,10 +38,7 @@ impl<R: Routing, A: Profile> PressureChamber<R, A> {
     /// # Errors
     /// If the pressure is not finite.
     pub fn new(routing: R, area: A, pressure: f64) -> Result<Self> {
-        if !pressure.is_finite() {
-            let quantity = "pressure of a chamber";
-            return Err(Error::Invalid { quantity, value: pressure, requirement: "finite" });
-        }
+        finite("pressure of a chamber", [&pressure])?;
         Ok(Self { routing, area, pressure, end: None })
     }
 
@@ -50,10 +47,7 @@ impl<R: Routing, A: Profile> PressureChamber<R, A> {
     /// # Errors
     /// If s is not positive and finite.
     pub fn ending_at(self, s: f64) -> Result<Self> {
-        if !(s > 0.0 && s.is_finite()) {
-            let (quantity, requirement) = ("arc length at which a chamber ends", "positive and finite");
-            return Err(Error::Invalid { quantity, value: s, requirement });
-        }
+        positive("arc length at which a chamber ends", s)?;
         Ok(Self { end: Some(s), ..self })
     }
 }

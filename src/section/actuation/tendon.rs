@@ -2,7 +2,7 @@ use nalgebra::Vector3;
 
 use super::Actuator;
 use super::routing::{Routing, path};
-use crate::error::{Error, Result};
+use crate::error::{Result, not_negative, positive};
 use crate::lie::{Strain, Twist};
 use crate::material::Station;
 use crate::scalar::Scalar;
@@ -47,10 +47,7 @@ impl<R: Routing> Tendon<R> {
     /// # Errors
     /// If the tension is negative or not finite.
     pub fn new(routing: R, tension: f64) -> Result<Self> {
-        if !(tension >= 0.0 && tension.is_finite()) {
-            let (quantity, requirement) = ("tension of a tendon", "finite and not negative");
-            return Err(Error::Invalid { quantity, value: tension, requirement });
-        }
+        not_negative("tension of a tendon", tension)?;
         Ok(Self { routing, tension, end: None })
     }
 
@@ -59,10 +56,7 @@ impl<R: Routing> Tendon<R> {
     /// # Errors
     /// If s is not positive and finite.
     pub fn ending_at(self, s: f64) -> Result<Self> {
-        if !(s > 0.0 && s.is_finite()) {
-            let (quantity, requirement) = ("arc length at which a tendon ends", "positive and finite");
-            return Err(Error::Invalid { quantity, value: s, requirement });
-        }
+        positive("arc length at which a tendon ends", s)?;
         Ok(Self { end: Some(s), ..self })
     }
 

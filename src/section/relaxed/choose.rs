@@ -1,7 +1,7 @@
 use std::fmt;
 
 use super::{Relaxed, Warping};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, positive};
 use crate::lie::Strain;
 use crate::material::{Local, Request};
 use crate::section::degree::StrainRange;
@@ -98,10 +98,7 @@ impl<S: Shape, M: Local> Relaxed<S, M> {
     /// # Errors
     /// If the tolerance or the range is not positive and finite; as [`with_warping`](Self::with_warping).
     pub fn choose(mut self, tolerance: f64, range: &StrainRange) -> Result<(Self, LadderReport)> {
-        if !(tolerance > 0.0 && tolerance.is_finite()) {
-            let quantity = "tolerance of a ladder";
-            return Err(Error::Invalid { quantity, value: tolerance, requirement: "positive and finite" });
-        }
+        positive("tolerance of a ladder", tolerance)?;
         range.check()?;
         let points = self.modes(range.at.s)?.into_owned().points;
         let radius = points.x.iter().zip(&points.y).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);

@@ -17,21 +17,11 @@ impl<const S: usize> March<S> {
     ) -> Result<(), Reason> {
         let Attempt { core, scene, present, dt: h, .. } = attempt;
         let (present, h) = (*present, *h);
-        let (beta, gamma) = (a.beta, a.gamma);
-        let velocity = gamma / (beta * h);
-        let acceleration = (1.0 - a.alpha_m) / ((1.0 - a.alpha_f) * beta * h * h);
+        let beta = a.beta;
+        let (velocity, acceleration) = a.slopes(h);
         core.problem.relation = Relation::Newmark { velocity, acceleration };
-        let ahead = |v: Twist, a_n: Twist| v * h + a_n * (h * h * (0.5 - beta));
-        let offset = |v: Twist, dv: Twist, a_n: Twist| {
-            let p = ahead(v, a_n);
-            Offset {
-                velocity: v + a_n * (h * (1.0 - gamma)) - p * velocity,
-                acceleration: (a_n * a.alpha_m - dv * a.alpha_f) * (1.0 / (1.0 - a.alpha_f))
-                    - p * acceleration,
-            }
-        };
         for (mount, m) in core.mounts.iter_mut().zip(&present.mounts) {
-            mount.offset = offset(m.velocity, m.acceleration, m.algorithmic);
+            mount.offset = a.offset(h, [m.velocity, m.acceleration, m.algorithmic]);
         }
         core.at_time(scene, present.time + h).map_err(Reason::Inadmissible)?;
         let known = self.last_step > 0.0;
@@ -47,10 +37,11 @@ impl<const S: usize> March<S> {
         }
         for (i, points) in present.points.iter().enumerate() {
             for (k, point) in points.iter().enumerate() {
-                core.problem.offset[i][k] = offset(point.velocity, point.acceleration, point.algorithmic);
+                core.problem.offset[i][k] =
+                    a.offset(h, [point.velocity, point.acceleration, point.algorithmic]);
                 let (rate, second) = (point.strain_rate, point.strain_second);
                 let p = rate * h + second * (h * h * (0.5 - beta));
-                core.problem.strain_offset[i][k] = rate + second * (h * (1.0 - gamma)) - p * velocity;
+                core.problem.strain_offset[i][k] = rate + second * (h * (1.0 - a.gamma)) - p * velocity;
                 // differences of the strains themselves: in what has no inertia, the rates of the scheme are noise
                 core.strain[i][k] = point.strain
                     + if known {
@@ -63,17 +54,7 @@ impl<const S: usize> March<S> {
         self.solve(attempt)?;
         let Attempt { core, how, made, .. } = attempt;
         made.power = core.power(how.track_work);
-        let mut largest: f64 = 0.0;
-        for (i, points) in present.points.iter().enumerate() {
-            for (k, point) in points.iter().enumerate() {
-                let p = ahead(point.velocity, point.algorithmic);
-                let after = (core.rates[i][k].phi - p) * (1.0 / (beta * h * h));
-                // Zienkiewicz and Xie (1991): what a linear acceleration would have added
-                let error = (after - point.algorithmic) * (h * h * (beta - 1.0 / 6.0));
-                largest = largest.max(error.angular.norm()).max(error.linear.norm() / core.grid.length);
-            }
-        }
-        made.error = largest;
+        made.error = a.error(core, present, h);
         Ok(())
     }
 
@@ -96,6 +77,40 @@ impl<const S: usize> March<S> {
 }
 
 impl Alpha {
+    /// By how much velocity and acceleration change with φ over a step h: γ/(β h), and (1 − α_m)/((1 − α_f) β h²).
+    fn slopes(&self, h: f64) -> (f64, f64) {
+        (self.gamma / (self.beta * h), (1.0 - self.alpha_m) / ((1.0 - self.alpha_f) * self.beta * h * h))
+    }
+
+    /// φ as far as it is known at the beginning of a step, h v_n + h²(½ − β) a_n.
+    fn ahead(&self, h: f64, velocity: Twist, algorithmic: Twist) -> Twist {
+        velocity * h + algorithmic * (h * h * (0.5 - self.beta))
+    }
+
+    /// What does not depend on φ, of velocity, acceleration and algorithmic acceleration at the beginning.
+    fn offset(&self, h: f64, [v, dv, a_n]: [Twist; 3]) -> Offset {
+        let (p, (velocity, acceleration)) = (self.ahead(h, v, a_n), self.slopes(h));
+        Offset {
+            velocity: v + a_n * (h * (1.0 - self.gamma)) - p * velocity,
+            acceleration: (a_n * self.alpha_m - dv * self.alpha_f) * (1.0 / (1.0 - self.alpha_f))
+                - p * acceleration,
+        }
+    }
+
+    /// What a linear acceleration would have added to φ: the largest rotation, or displacement over the length. Source: Zienkiewicz and Xie (1991).
+    fn error<const S: usize>(&self, core: &Core<S>, present: &Present<S>, h: f64) -> f64 {
+        let mut largest: f64 = 0.0;
+        for (points, rates) in present.points.iter().zip(&core.rates) {
+            for (point, rates) in points.iter().zip(rates) {
+                let p = self.ahead(h, point.velocity, point.algorithmic);
+                let after = (rates.phi - p) * (1.0 / (self.beta * h * h));
+                let error = (after - point.algorithmic) * (h * h * (self.beta - 1.0 / 6.0));
+                largest = largest.max(error.angular.norm()).max(error.linear.norm() / core.grid.length);
+            }
+        }
+        largest
+    }
+
     /// The algorithmic accelerations at the end of a step, a = (φ − h v_n − h²(½ − β) a_n)/(β h²).
     pub(super) fn accelerate<const S: usize>(&self, core: &Core<S>, present: &mut Present<S>, h: f64) {
         let (ahead, scale) = (h * h * (0.5 - self.beta), 1.0 / (self.beta * h * h));

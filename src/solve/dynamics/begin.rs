@@ -120,23 +120,28 @@ impl<const S: usize> Present<S> {
             }
         }
         if core.loose {
-            // what has no inertia then moves as far as a step lets it, and not as far as next to no stiffness would
-            let base = core.base_step;
-            core.problem.stiffness = step * step;
-            core.factor()?;
-            core.newton_step()?;
-            core.problem.stiffness = 1.0;
-            if core.mounts[0].mass.is_none() {
-                self.mounts[0].acceleration += Twist::from_vector(&(core.base_step - base));
-            }
-            for (points, second) in self.points.iter_mut().zip(&core.step) {
-                for k in 0..S {
-                    points[k].strain_second = second[k];
-                }
-            }
+            self.move_what_has_no_inertia(core, step)?;
         }
         for motion in &mut self.mounts {
             motion.algorithmic = motion.acceleration;
+        }
+        Ok(())
+    }
+
+    /// What has no inertia moves as far as a step lets it, and not as far as next to no stiffness would: a second solve, with Δt² K.
+    fn move_what_has_no_inertia(&mut self, core: &mut Core<S>, step: f64) -> Result<()> {
+        let base = core.base_step;
+        core.problem.stiffness = step * step;
+        core.factor()?;
+        core.newton_step()?;
+        core.problem.stiffness = 1.0;
+        if core.mounts[0].mass.is_none() {
+            self.mounts[0].acceleration += Twist::from_vector(&(core.base_step - base));
+        }
+        for (points, second) in self.points.iter_mut().zip(&core.step) {
+            for k in 0..S {
+                points[k].strain_second = second[k];
+            }
         }
         Ok(())
     }

@@ -105,9 +105,8 @@ impl<const S: usize> Present<S> {
         }
     }
 
-    /// From saved numbers. Poses but that of the base are left to be found.
-    pub(super) fn restore(state: &State, elements: usize, mounts: usize) -> Result<Self> {
-        let n = S * elements;
+    /// Refuses a state of another mesh, or with a number that is not finite.
+    fn check(state: &State, n: usize, mounts: usize) -> Result<()> {
         let parts = [
             &state.strain,
             &state.strain_rate,
@@ -135,6 +134,12 @@ impl<const S: usize> Present<S> {
                 requirement: "finite",
             });
         }
+        Ok(())
+    }
+
+    /// From saved numbers. Poses but that of the base are left to be found.
+    pub(super) fn restore(state: &State, elements: usize, mounts: usize) -> Result<Self> {
+        Self::check(state, S * elements, mounts)?;
         let point = |j: usize| Moving {
             pose: Pose::identity(),
             strain: Strain::from_array(state.strain[j]),
