@@ -1,4 +1,4 @@
-use nalgebra::{Matrix6, Vector3};
+use nalgebra::{ArrayStorage, Matrix6, Vector3};
 
 use super::{LoadWrench, TipLoad};
 use crate::error::{Result, finite};
@@ -52,13 +52,9 @@ impl DeadWrench {
 #[inline(always)]
 pub(super) fn dead(pose: &Pose, moment: &Vector3<f64>, force: &Vector3<f64>) -> (Wrench, Matrix6<f64>) {
     let wrench = Wrench::new(pose.rotation.tr_mul(moment), pose.rotation.tr_mul(force));
-    let mut tangent = Matrix6::zeros();
-    for (first, v) in [(0, &wrench.moment), (3, &wrench.force)] {
-        (tangent[(first + 1, 0)], tangent[(first + 2, 0)]) = (v.z, -v.y);
-        (tangent[(first, 1)], tangent[(first + 2, 1)]) = (-v.z, v.x);
-        (tangent[(first, 2)], tangent[(first + 1, 2)]) = (v.y, -v.x);
-    }
-    (wrench, tangent)
+    let ([l, m, n, x, y, z], o) = (wrench.to_array(), 0.0);
+    let columns = [[o, n, -m, o, z, -y], [-n, o, l, -z, o, x], [m, -l, o, y, -x, o], [o; 6], [o; 6], [o; 6]];
+    (wrench, Matrix6::from_array_storage(ArrayStorage(columns)))
 }
 
 impl TipLoad for DeadWrench {

@@ -97,12 +97,18 @@ impl<F: Fn(f64) -> Wrench + Send + Sync> FollowerLoad<F> {
 }
 
 impl<B: ?Sized, F: WrenchProfile> Load<B> for DeadLoad<F> {
-    fn at(&self, _body: &B, s: f64, pose: &Pose) -> Result<LoadWrench> {
+    fn at(&self, body: &B, s: f64, pose: &Pose) -> Result<LoadWrench> {
+        let mut load = LoadWrench { wrench: Wrench::zero(), tangent: Matrix6::zeros(), potential: None };
+        self.write_at(body, s, pose, &mut load)?;
+        Ok(load)
+    }
+
+    fn write_at(&self, _body: &B, s: f64, pose: &Pose, into: &mut LoadWrench) -> Result<()> {
         let Wrench { moment, force } = self.0.at(s);
-        let (wrench, tangent) = dead(pose, &moment, &force);
+        (into.wrench, into.tangent) = dead(pose, &moment, &force);
         let conservative = moment == nalgebra::Vector3::zeros();
-        let potential = conservative.then(|| -force.dot(&pose.position));
-        Ok(LoadWrench { wrench, tangent, potential })
+        into.potential = conservative.then(|| -force.dot(&pose.position));
+        Ok(())
     }
 }
 

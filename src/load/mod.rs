@@ -103,6 +103,15 @@ pub trait Load<B: ?Sized>: Send + Sync {
     /// # Errors
     /// Where the load or what it asks of the body is not defined.
     fn at(&self, body: &B, s: f64, pose: &Pose) -> Result<LoadWrench>;
+
+    /// As [`at`](Self::at), over what is in `into`; the loads of this crate write there without a copy.
+    ///
+    /// # Errors
+    /// As [`at`](Self::at).
+    fn write_at(&self, body: &B, s: f64, pose: &Pose, into: &mut LoadWrench) -> Result<()> {
+        *into = self.at(body, s, pose)?;
+        Ok(())
+    }
 }
 
 /// A wrench on one section of the rod: its tip, its base or one between.

@@ -164,10 +164,10 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
         stage: &mut [LoadWrench; S],
     ) -> Result<()> {
         for k in 0..S {
-            let (s, pose) = (self.stage_s(i, k), *node * motion.stage[k]);
-            let (body, total) = (self.rod.body(), &mut stage[k]);
+            let pose = *node * motion.stage[k];
+            let (s, body, total) = (self.stage_s(i, k), self.rod.body(), &mut stage[k]);
             match self.rod.loads() {
-                [only] if self.load_factor == 1.0 => *total = only.at(body, s, &pose)?,
+                [only] if self.load_factor == 1.0 => only.write_at(body, s, &pose, total)?,
                 all => {
                     *total = LoadWrench::none();
                     for load in all {

@@ -2,7 +2,7 @@
 
 use super::algebra::{
     Forms, Matrix, Pair, add, add_hat, add_multiple, add_product, cross_columns, product, product_transpose,
-    subtract_product, transpose_product, zeros,
+    subtract_product, times, transpose_product, zeros,
 };
 use super::eliminate::System;
 use super::linearised::Linearised;
@@ -77,6 +77,14 @@ impl Terms {
     #[inline(always)]
     pub(super) fn set_turn<L: Lane>(&mut self, l: usize, pose: &Placed<L>, state: &Linearised, at: usize) {
         let (r, p) = (&pose.rotation, &pose.position);
+        if !state.turning {
+            // R f^ Rᵀ = (R f)^
+            let load: Pair<L> = load_pair(&state.loads.wrench[l], at);
+            let force = add_hat(&zeros(), L::splat(1.0), &times(r, &load.second));
+            store_matrix(&cross_columns(p, &force), &mut self.e[l][0], at);
+            store_matrix(&force, &mut self.e[l][1], at);
+            return;
+        }
         let [moment, force] = slope::<L>(state, l, at);
         let force = product(r, &product_transpose(&force, r));
         let moment = add_product(cross_columns(p, &force), r, &product_transpose(&moment, r));
