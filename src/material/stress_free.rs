@@ -66,19 +66,19 @@ impl<M: Material> Material for StressFree<M> {
 #[derive(Clone, Copy, Debug)]
 pub struct ReferencePressure<L>(pub L);
 
-impl<L: Isotropic> Isotropic for ReferencePressure<L> {
+impl<I: Isotropic> Isotropic for ReferencePressure<I> {
     #[inline(always)]
-    fn energy_density<D: Scalar>(&self, invariants: &Invariants<D>, at: &Point<D>) -> D {
-        energy_density(&self.0, invariants, at)
+    fn energy_density<D: Scalar>(&self, i: &Invariants<D>, at: &Point<D>) -> D {
+        WithoutPressure(&self.0).energy_density(i, at)
     }
 
     #[inline(always)]
-    fn evaluate<N: Lane, const V: usize, const H: usize>(
+    fn evaluate<L: Lane, const N: usize, const M: usize>(
         &self,
-        invariants: &Invariants<Jet<N, V, H>>,
-        at: &Point<Jet<N, V, H>>,
-    ) -> Jet<N, V, H> {
-        evaluate(&self.0, invariants, at)
+        i: &Invariants<Jet<L, N, M>>,
+        at: &Point<Jet<L, N, M>>,
+    ) -> Jet<L, N, M> {
+        WithoutPressure(&self.0).evaluate(i, at)
     }
 
     fn perform(&self, task: &mut Task<'_>) -> Result<Response> {
@@ -99,50 +99,36 @@ impl<L: Isotropic> Isotropic for ReferencePressure<L> {
 }
 
 /// [`ReferencePressure`] of a law that is borrowed.
-pub(super) struct WithoutPressure<'a, L>(pub(super) &'a L);
+pub(super) struct WithoutPressure<'a, I>(pub(super) &'a I);
 
-impl<L: Isotropic> Isotropic for WithoutPressure<'_, L> {
+impl<I: Isotropic> Isotropic for WithoutPressure<'_, I> {
+    /// u − p(J−1), with p = ∂u/∂J at rest by one more dual part.
     #[inline(always)]
-    fn energy_density<D: Scalar>(&self, invariants: &Invariants<D>, at: &Point<D>) -> D {
-        energy_density(self.0, invariants, at)
+    fn energy_density<D: Scalar>(&self, i: &Invariants<D>, at: &Point<D>) -> D {
+        if let Some(free) = self.0.stress_free_energy_density(i, at) {
+            return free;
+        }
+        let zero = Dual::from_re(D::zero());
+        let rest = Invariants::from_shear_and_stretch(zero, zero.derivative());
+        let place = Point { x: Dual::from_re(at.x), y: Dual::from_re(at.y), s: Dual::from_re(at.s) };
+        self.0.energy_density(i, at) - i.j() * self.0.energy_density(&rest, &place).eps
     }
 
+    /// The same, with p by a jet of its own.
     #[inline(always)]
-    fn evaluate<N: Lane, const V: usize, const H: usize>(
+    fn evaluate<L: Lane, const N: usize, const M: usize>(
         &self,
-        invariants: &Invariants<Jet<N, V, H>>,
-        at: &Point<Jet<N, V, H>>,
-    ) -> Jet<N, V, H> {
-        evaluate(self.0, invariants, at)
+        i: &Invariants<Jet<L, N, M>>,
+        at: &Point<Jet<L, N, M>>,
+    ) -> Jet<L, N, M> {
+        match self.0.stress_free_energy_density(i, at) {
+            Some(free) => free,
+            None => self.0.evaluate(i, at) - i.j() * pressure(self.0, at),
+        }
     }
 
     fn domain(&self) -> &'static str {
         self.0.domain()
-    }
-}
-
-/// u − p(J−1), with p = ∂u/∂J at rest by one more dual part.
-#[inline(always)]
-fn energy_density<L: Isotropic, D: Scalar>(law: &L, i: &Invariants<D>, at: &Point<D>) -> D {
-    if let Some(free) = law.stress_free_energy_density(i, at) {
-        return free;
-    }
-    let zero = Dual::from_re(D::zero());
-    let rest = Invariants::from_shear_and_stretch(zero, zero.derivative());
-    let place = Point { x: Dual::from_re(at.x), y: Dual::from_re(at.y), s: Dual::from_re(at.s) };
-    law.energy_density(i, at) - i.j() * law.energy_density(&rest, &place).eps
-}
-
-/// As [`energy_density`], in the numbers of the engine: p by a jet of its own.
-#[inline(always)]
-fn evaluate<I: Isotropic, L: Lane, const N: usize, const M: usize>(
-    law: &I,
-    i: &Invariants<Jet<L, N, M>>,
-    at: &Point<Jet<L, N, M>>,
-) -> Jet<L, N, M> {
-    match law.stress_free_energy_density(i, at) {
-        Some(free) => free,
-        None => law.evaluate(i, at) - i.j() * pressure(law, at),
     }
 }
 

@@ -50,6 +50,9 @@ const LEFT: f64 = 100.0;
 /// A residual that rounding may leave.
 const ROUNDING_RESIDUAL: f64 = 1e-10;
 
+/// The most elements of a first mesh that an earlier solution asks for: enough for a shape.
+const MOST_FIRST: usize = 64;
+
 /// How often a first mesh on which Newton's method fails is made four times finer.
 const FIRST_MESHES: u32 = 3;
 
@@ -223,8 +226,9 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
             Err(_) => 2, // the solve finds the same, and says so
         };
         self.buffers.recycle(state);
-        // half as fine as a shape that is known already
-        let elements = elements.max(self.earlier.map_or(0, |earlier| earlier.nodes().len() / 2));
+        // half as fine as a shape that is known already, within reason
+        let known = self.earlier.map_or(0, |earlier| earlier.nodes().len() / 2);
+        let elements = elements.max(known.min(MOST_FIRST));
         let rod = self.rod;
         let meshes = (0..FIRST_MESHES).map(|trial| Mesh::uniform(rod, elements * 4_usize.pow(trial)));
         let (mesh, outcome) = self.climb(meshes)?;

@@ -47,10 +47,17 @@ impl<const S: usize> Unknowns<S> {
         }
     }
 
-    /// The shape of an earlier solution: its strains, and its ends where they may move. Reactions, which are found in one step, are left to Newton's method.
+    /// The shape of an earlier solution: its strains, but for those that are fixed now, and its ends where they may move. Reactions, which are found in one
+    /// step, are left to Newton's method.
     pub(crate) fn of_earlier<B: Elastic>(mesh: &Mesh<'_, B, S>, earlier: &StaticSolution) -> Self {
         let at_rest = Self::at_rest(mesh);
-        let place = |i| std::array::from_fn(|k| earlier.strain_near(mesh.stage_s(i, k)));
+        let fixed = mesh.rod.body().constraint().fixed();
+        let strain = |s| {
+            let mut strain = earlier.strain_near(s).to_array();
+            strain.iter_mut().zip(fixed).filter(|(_, fixed)| *fixed).for_each(|(strain, _)| *strain = 0.0);
+            Strain::from_array(strain)
+        };
+        let place = |i| std::array::from_fn(|k| strain(mesh.stage_s(i, k)));
         let is_clamped = mesh.rod.base_fixture().support.is_clamped();
         Self {
             strains: (0..mesh.elements()).map(place).collect(),

@@ -1,5 +1,6 @@
 //! Snap-through, followed by arc length.
 
+use hyperrod::body::Constraint;
 use hyperrod::load::DeadWrench;
 use hyperrod::rod::{Freedom, Support};
 use hyperrod::section::Stiffness;
@@ -102,6 +103,27 @@ fn a_sweep_that_starts_from_the_shape_before_stays_on_its_branch() {
         assert_eq!(back.report().stability, Stability::Index { unstable: 0, neutral: 0 });
         assert!((crown(&back) - there).abs() < 1e-6, "{} and {there}", crown(&back));
         assert!((crown(&from_rest) - there).abs() > 0.05, "{} and {there}", crown(&from_rest));
+    }
+}
+
+/// Strains that are fixed stay zero, whatever they were in the rod before.
+#[test]
+fn a_start_from_a_rod_with_more_strains_is_forgotten_where_they_are_fixed() {
+    let section = || Stiffness::diagonal([1.0, 1.0, 0.8, 20.0, 20.0, 30.0]).unwrap();
+    let rod = |constraint: Constraint| {
+        let body = Body::new(1.0, section()).unwrap().with_constraint(constraint);
+        let pull = DeadWrench::force(vector![2.0, 1.0, 1.0]).unwrap();
+        Rod::clamped(body, Pose::identity()).with_tip_load(pull)
+    };
+    let full = solver().solve(&rod(Constraint::none())).unwrap();
+    assert!(full.stages().iter().any(|stage| stage.strain.linear.norm() > 1e-2));
+    for constraint in [Constraint::kirchhoff(), Constraint::inextensible()] {
+        let from_rest = solver().solve(&rod(constraint)).unwrap();
+        let found = solver().solve_from(&rod(constraint), &full).unwrap();
+        assert!(found.stages().iter().all(|stage| stage.strain.linear.z == 0.0));
+        // both end a Newton step of 1e-9 from the answer, its square off
+        let off = (found.tip().pose.position - from_rest.tip().pose.position).norm();
+        assert!(off < 1e-12, "{off:e}");
     }
 }
 
