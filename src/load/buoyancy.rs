@@ -60,4 +60,9 @@ impl<B: HasArea> Load<B> for Buoyancy {
         let potential = -lift.dot(&pose.position) * moments.area - first.dot(&in_body);
         Ok(LoadWrench { wrench, tangent, potential: Some(potential) })
     }
+
+    fn dead_force(&self, body: &B, s: f64) -> Result<Option<Vector3<f64>>> {
+        let moments = body.area_moments(s)?;
+        Ok((moments.first == [0.0; 2]).then(|| self.fluid_weight * -moments.area))
+    }
 }

@@ -1,4 +1,4 @@
-use nalgebra::Matrix6;
+use nalgebra::{Matrix6, Vector3};
 
 use super::dead_wrench::dead;
 use super::{Load, LoadWrench};
@@ -97,18 +97,16 @@ impl<F: Fn(f64) -> Wrench + Send + Sync> FollowerLoad<F> {
 }
 
 impl<B: ?Sized, F: WrenchProfile> Load<B> for DeadLoad<F> {
-    fn at(&self, body: &B, s: f64, pose: &Pose) -> Result<LoadWrench> {
-        let mut load = LoadWrench { wrench: Wrench::zero(), tangent: Matrix6::zeros(), potential: None };
-        self.write_at(body, s, pose, &mut load)?;
-        Ok(load)
+    fn at(&self, _body: &B, s: f64, pose: &Pose) -> Result<LoadWrench> {
+        let Wrench { moment, force } = self.0.at(s);
+        let (wrench, tangent) = dead(pose, &moment, &force);
+        let conservative = moment == Vector3::zeros();
+        Ok(LoadWrench { wrench, tangent, potential: conservative.then(|| -force.dot(&pose.position)) })
     }
 
-    fn write_at(&self, _body: &B, s: f64, pose: &Pose, into: &mut LoadWrench) -> Result<()> {
+    fn dead_force(&self, _body: &B, s: f64) -> Result<Option<Vector3<f64>>> {
         let Wrench { moment, force } = self.0.at(s);
-        (into.wrench, into.tangent) = dead(pose, &moment, &force);
-        let conservative = moment == nalgebra::Vector3::zeros();
-        into.potential = conservative.then(|| -force.dot(&pose.position));
-        Ok(())
+        Ok((moment == Vector3::zeros()).then_some(force))
     }
 }
 

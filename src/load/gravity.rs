@@ -62,4 +62,9 @@ impl<B: HasMass> Load<B> for Gravity {
         }
         Ok(LoadWrench { wrench, tangent, potential: Some(potential) })
     }
+
+    fn dead_force(&self, body: &B, s: f64) -> Result<Option<Vector3<f64>>> {
+        let LineMass { mass, first } = body.line_mass(s)?;
+        Ok((first == [0.0; 2]).then(|| self.acceleration * mass))
+    }
 }

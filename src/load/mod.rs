@@ -39,7 +39,7 @@ pub use foundation::ElasticFoundation;
 pub use gravity::Gravity;
 pub use payload::Payload;
 
-use nalgebra::Matrix6;
+use nalgebra::{Matrix6, Vector3};
 
 use crate::error::{Error, Result};
 use crate::lie::{Pose, Wrench};
@@ -59,6 +59,12 @@ impl LoadWrench {
     /// What no load does: nothing, with a potential of zero.
     pub(crate) fn none() -> Self {
         Self { wrench: Wrench::zero(), tangent: Matrix6::zeros(), potential: Some(0.0) }
+    }
+
+    /// A force fixed in space, seen from `pose` and given in the frame that the pose is given in; its potential is not told.
+    pub(crate) fn dead(pose: &Pose, force: &Vector3<f64>) -> Self {
+        let (wrench, tangent) = dead_wrench::dead(pose, &Vector3::zeros(), force);
+        Self { wrench, tangent, potential: None }
     }
 
     /// Adds another, taken `factor` times; the sum of one that has no potential has none.
@@ -104,13 +110,16 @@ pub trait Load<B: ?Sized>: Send + Sync {
     /// Where the load or what it asks of the body is not defined.
     fn at(&self, body: &B, s: f64, pose: &Pose) -> Result<LoadWrench>;
 
-    /// As [`at`](Self::at), over what is in `into`; the loads of this crate write there without a copy.
+    /// The force per length in space, N/m, of a load that is *dead* at s: a force through the axis that keeps its direction and size whatever the rod does,
+    /// so that [`at`](Self::at) gives (0, Rᵀ f) and the potential −f·p. `None`, the default, for any other.
+    ///
+    /// It need not be overridden. A rod all of whose loads are dead is solved faster, since they are asked for once and not in every iteration.
     ///
     /// # Errors
     /// As [`at`](Self::at).
-    fn write_at(&self, body: &B, s: f64, pose: &Pose, into: &mut LoadWrench) -> Result<()> {
-        *into = self.at(body, s, pose)?;
-        Ok(())
+    fn dead_force(&self, body: &B, s: f64) -> Result<Option<Vector3<f64>>> {
+        let _ = (body, s);
+        Ok(None)
     }
 }
 

@@ -1,12 +1,12 @@
 //! One collocation element: kinematics, balance, and their exact linearisation about node i.
 
-use nalgebra::{Matrix3, Matrix6};
+use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use super::collocation::Collocation;
 use super::magnus::{exponent, exponent_derivative, taylor_data};
+use super::stage_loads::StageLoads;
 use crate::body::Constraint;
 use crate::lie::{Pose, Twist, TwistMap, Wrench, se3, so3::hat};
-use crate::load::LoadWrench;
 use crate::material::Response;
 use crate::scalar::Scalar;
 
@@ -51,28 +51,15 @@ impl<D: Scalar, const S: usize> Kinematics<D, S> {
         at_start
     }
 
-    /// Λ_i and Λ_k from the wrench at the end and the loads of the stages.
-    pub(crate) fn wrenches(
-        &self,
-        table: &Collocation<S>,
-        wrench_at_end: &Wrench<D>,
-        stage_loads: &[Wrench<D>; S],
-        h: f64,
-    ) -> (Wrench<D>, [Wrench<D>; S]) {
-        let node_loads = self.at_node(stage_loads);
-        let at_start = self.wrench_at_start(table, wrench_at_end, &node_loads, h);
-        (at_start, self.stage_wrenches(table, &at_start, &node_loads, h))
-    }
-
-    /// Λ_k at the stages and Λ at the end, from Λ_i and the loads of the stages.
+    /// Λ_k at the stages and Λ at the end, from Λ_i and the loads brought to the first node.
     pub(crate) fn wrenches_from_start(
         &self,
         table: &Collocation<S>,
         wrench_at_start: &Wrench<D>,
-        stage_loads: Option<&[Wrench<D>; S]>,
+        node_loads: Option<[Wrench<D>; S]>,
         h: f64,
     ) -> ([Wrench<D>; S], Wrench<D>) {
-        let node_loads = stage_loads.map_or([Wrench::zero(); S], |loads| self.at_node(loads));
+        let node_loads = node_loads.unwrap_or([Wrench::zero(); S]);
         let mut at_end = *wrench_at_start;
         for l in 0..S {
             at_end -= node_loads[l] * D::from(h * table.b[l]);
@@ -191,13 +178,22 @@ pub(crate) struct ElementState<'a, const S: usize> {
     /// Λ_k at the stages.
     pub(crate) stage_wrench: &'a [Wrench; S],
     pub(crate) wrench_at_end: &'a Wrench,
-    /// Distributed load and its tangent at the stages; `None` without loads.
-    pub(crate) load: Option<&'a [LoadWrench; S]>,
+    pub(crate) load: StageLoads<'a, S>,
     /// Strains that do not vary: their equations are left out.
     pub(crate) constraint: Constraint,
 }
 
 impl<const S: usize> ElementState<'_, S> {
+    /// The force of dead loads at stage k, in the frame of the first node.
+    #[inline(always)]
+    pub(crate) fn dead_force(&self, k: usize) -> Vector3<f64> {
+        match &self.load {
+            StageLoads::None => Vector3::zeros(),
+            StageLoads::Dead(forces) => forces[k],
+            StageLoads::Any(loads) => self.kinematics.stage[k].rotation * loads[k].wrench.force,
+        }
+    }
+
     /// r_k = Ψ(Δξ_k) − Λ_k.
     pub(crate) fn residual(&self, k: usize) -> Wrench {
         self.response[k].wrench - self.stage_wrench[k]
@@ -248,26 +244,25 @@ impl<const S: usize> Linearisation<S> {
         let mut wrench_from_zeta = Matrix6::zeros();
         let mut wrench_from_strain = end_strain.map(|block| end_change * block);
 
-        if let Some(loads) = state.load {
-            for (l, load) in loads.iter().enumerate() {
-                let inverse = state.kinematics.stage[l].adjoint_inverse().to_matrix();
-                // δF_l = G_l y_l + E_l ζ_i
-                let g = inverse.transpose() * (load.tangent - frame_change(&load.wrench));
-                let e = inverse.transpose() * load.tangent * inverse;
-                let g_b = b[l].map(|block| g * block);
-                for k in 0..S {
-                    let factor = transpose[k] * (state.h * table.a[k][l]);
-                    for m in 0..S {
-                        stage[k][m] += factor * g_b[m];
-                    }
-                    from_zeta[k] -= factor * e;
-                }
-                let factor = end_transpose * (state.h * table.b[l]);
+        for (l, pose) in state.kinematics.stage.iter().enumerate() {
+            let Some(load) = state.load.at_stage(l, pose) else { break };
+            let inverse = pose.adjoint_inverse().to_matrix();
+            // δF_l = G_l y_l + E_l ζ_i
+            let g = inverse.transpose() * (load.tangent - frame_change(&load.wrench));
+            let e = inverse.transpose() * load.tangent * inverse;
+            let g_b = b[l].map(|block| g * block);
+            for k in 0..S {
+                let factor = transpose[k] * (state.h * table.a[k][l]);
                 for m in 0..S {
-                    wrench_from_strain[m] -= factor * g_b[m];
+                    stage[k][m] += factor * g_b[m];
                 }
-                wrench_from_zeta -= factor * e;
+                from_zeta[k] -= factor * e;
             }
+            let factor = end_transpose * (state.h * table.b[l]);
+            for m in 0..S {
+                wrench_from_strain[m] -= factor * g_b[m];
+            }
+            wrench_from_zeta -= factor * e;
         }
         Self {
             stage,

@@ -14,6 +14,7 @@ pub(crate) mod lanes;
 pub(crate) mod magnus;
 pub(crate) mod planar;
 mod scene;
+pub(crate) mod stage_loads;
 mod stages;
 mod strong_form;
 pub(crate) mod support;

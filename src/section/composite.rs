@@ -108,7 +108,7 @@ impl Geometry for Composite {
         for (part, _) in &self.parts {
             total += part.moments(s)?;
         }
-        Ok(total)
+        Ok(total.without_rounding())
     }
 
     fn weighted_moments(&self, s: f64) -> Result<AreaMoments> {
@@ -116,7 +116,7 @@ impl Geometry for Composite {
         for (part, factor) in &self.parts {
             total += part.weighted_moments(s)? * *factor;
         }
-        Ok(total)
+        Ok(total.without_rounding())
     }
 
     fn weighted_third_moments(&self, s: f64) -> Result<[f64; 4]> {

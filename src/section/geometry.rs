@@ -53,7 +53,24 @@ impl AreaMoments {
             sum.i_y += w * x * x;
             sum.i_xy += w * x * y;
         }
-        sum
+        sum.without_rounding()
+    }
+
+    /// With first moments and a product of inertia of exactly zero where they are no more than the rounding of the sums: a section that is symmetric hangs
+    /// in its plane, and its weight acts on the axis.
+    pub(super) fn without_rounding(mut self) -> Self {
+        /// Some tens of roundings of points and weights; of Σ w |x| ≤ √(A I_y).
+        const ROUNDING: f64 = 64.0 * f64::EPSILON;
+        let nothing = |sum: f64, size: f64| sum.abs() <= ROUNDING * size;
+        for (first, second) in self.first.iter_mut().zip([self.i_y, self.i_x]) {
+            if nothing(*first, (self.area * second).abs().sqrt()) {
+                *first = 0.0;
+            }
+        }
+        if nothing(self.i_xy, (self.i_x * self.i_y).abs().sqrt()) {
+            self.i_xy = 0.0;
+        }
+        self
     }
 
     /// (∫x³, ∫x²y, ∫xy², ∫y³) dA over points and weights.

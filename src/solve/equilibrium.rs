@@ -1,5 +1,7 @@
 //! The residual of a rod on a mesh, and its linearisation, for a given set of stage strains.
 
+use nalgebra::Vector3;
+
 use super::mesh::Mesh;
 use super::unknowns::{StageStrains, Unknowns};
 use crate::body::{Constraint, Elastic};
@@ -11,6 +13,7 @@ use crate::rod::element::{ElementState, Kinematics};
 use crate::rod::joint::Fixture;
 use crate::rod::lanes::{self, ELEMENTS, Twists};
 use crate::rod::planar;
+use crate::rod::stage_loads::StageLoads;
 
 /// Everything that follows from the unknowns.
 #[derive(Clone, Debug)]
@@ -26,8 +29,10 @@ pub(crate) struct Configuration<const S: usize> {
     pub(crate) defect: Vec<Wrench>,
     pub(crate) response: Vec<[Response; S]>,
     pub(crate) kinematics: Vec<Kinematics<f64, S>>,
-    /// One entry an element, or none at all for a rod without distributed loads.
+    /// One entry an element, or none at all for a rod without distributed loads, or with dead ones alone.
     pub(crate) loads: Vec<[LoadWrench; S]>,
+    /// Where all distributed loads are dead, their forces in the frames of the first nodes of the elements.
+    pub(crate) dead: Vec<[Vector3<f64>; S]>,
     pub(crate) base_load: LoadWrench,
     pub(crate) tip_load: LoadWrench,
     /// In the order along the rod.
@@ -67,8 +72,9 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
         into.node_pose.resize(n + 1, unknowns.base);
         into.node_pose[0] = unknowns.base;
         into.response.resize(n, [Response::zero(); S]);
-        let loaded = !self.rod.loads().is_empty();
-        into.loads.resize(if loaded { n } else { 0 }, [LoadWrench::none(); S]);
+        let (loaded, dead) = (!self.rod.loads().is_empty(), !self.dead.is_empty());
+        into.loads.resize(if loaded && !dead { n } else { 0 }, [LoadWrench::none(); S]);
+        into.dead.resize(self.dead.len(), [Vector3::zeros(); S]);
         for i in 0..n {
             if i % ELEMENTS == 0 {
                 let block = i..n.min(i + ELEMENTS);
@@ -78,7 +84,12 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
                 self.move_block(&unknowns.strains, i, &mut into.kinematics);
             }
             let motion = &into.kinematics[i];
-            if loaded {
+            if dead {
+                let back = &into.node_pose[i].rotation;
+                for (force, in_space) in into.dead[i].iter_mut().zip(&self.dead[i]) {
+                    *force = back.tr_mul(in_space) * self.load_factor;
+                }
+            } else if loaded {
                 self.stage_loads(i, &into.node_pose[i], motion, &mut into.loads[i])?;
             }
             into.node_pose[i + 1] = into.node_pose[i] * motion.end;
@@ -131,26 +142,30 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
                 state.wrench = carried + state.applied;
                 before = state.wrench;
             }
-            let (motion, h, loads) = (&into.kinematics[i], self.h(i), into.loads.get(i));
+            let (motion, h, loads) = (&into.kinematics[i], self.h(i), into.stage_loads(i));
             if independent {
-                let loads = loads.map(wrenches_of);
                 let start = &into.node_wrench[i];
-                let (stage, end) = motion.wrenches_from_start(&self.table, start, loads.as_ref(), h);
+                let (stage, end) = motion.wrenches_from_start(&self.table, start, loads.at_node(motion), h);
                 (into.stage_wrench[i], into.end_wrench[i]) = (stage, end);
                 into.defect.push(end - before);
                 continue;
             }
-            into.end_wrench[i] = before;
-            let stage = &mut into.stage_wrench[i];
-            into.node_wrench[i] = match loads {
-                None if plane => planar::wrenches(motion, &before, stage),
-                None => motion.wrenches_without_load(&before, stage),
-                Some(loads) => {
-                    let start;
-                    (start, *stage) = motion.wrenches(&self.table, &before, &wrenches_of(loads), h);
-                    start
+            let mut stage = [Wrench::zero(); S];
+            let start = match loads {
+                StageLoads::None if plane => planar::wrenches(&self.table, motion, &before, None, &mut stage),
+                StageLoads::Dead(forces) if plane => {
+                    planar::wrenches(&self.table, motion, &before, Some((h, forces)), &mut stage)
                 }
+                _ => match loads.at_node(motion) {
+                    None => motion.wrenches_without_load(&before, &mut stage),
+                    Some(loads) => {
+                        let start = motion.wrench_at_start(&self.table, &before, &loads, h);
+                        stage = motion.stage_wrenches(&self.table, &start, &loads, h);
+                        start
+                    }
+                },
             };
+            (into.node_wrench[i], into.stage_wrench[i], into.end_wrench[i]) = (start, stage, before);
         }
         into.defect.reverse();
         into.take_reactions(&self.rod.body().constraint());
@@ -166,14 +181,9 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
         for k in 0..S {
             let pose = *node * motion.stage[k];
             let (s, body, total) = (self.stage_s(i, k), self.rod.body(), &mut stage[k]);
-            match self.rod.loads() {
-                [only] if self.load_factor == 1.0 => only.write_at(body, s, &pose, total)?,
-                all => {
-                    *total = LoadWrench::none();
-                    for load in all {
-                        total.add_scaled(&load.at(body, s, &pose)?, self.load_factor);
-                    }
-                }
+            *total = LoadWrench::none();
+            for load in self.rod.loads() {
+                total.add_scaled(&load.at(body, s, &pose)?, self.load_factor);
             }
             stage[k].check("distributed load", s)?;
         }
@@ -204,7 +214,7 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
             response: &state.response[i],
             stage_wrench: &state.stage_wrench[i],
             wrench_at_end: &state.end_wrench[i],
-            load: state.loads.get(i),
+            load: state.stage_loads(i),
             constraint: self.rod.body().constraint(),
         }
     }
@@ -226,6 +236,14 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
                 potential = sum(potential, stage[k].potential.map(|p| weights[k] * p));
             }
         }
+        for (i, forces) in state.dead.iter().enumerate() {
+            let (weights, node) = (weights(i), &state.node_pose[i]);
+            for (k, force) in forces.iter().enumerate() {
+                // −f·p, with f in the frame of the node
+                let position = node.rotation.tr_mul(&node.position) + state.kinematics[i].stage[k].position;
+                potential = potential.map(|p| p - weights[k] * force.dot(&position));
+            }
+        }
         (elastic, potential.map(|p| p + self.springs(state)))
     }
 
@@ -239,16 +257,6 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
         let joints = joints.zip(state.joints.iter().map(|joint| &joint.pose));
         ends.into_iter().chain(joints).map(|(fixture, pose)| fixture.support.potential(pose)).sum()
     }
-}
-
-/// Without copying the tangents.
-#[inline(always)]
-fn wrenches_of<const S: usize>(loads: &[LoadWrench; S]) -> [Wrench; S] {
-    let mut wrenches = [Wrench::zero(); S];
-    for (wrench, load) in wrenches.iter_mut().zip(loads) {
-        *wrench = load.wrench;
-    }
-    wrenches
 }
 
 fn sum(a: Option<f64>, b: Option<f64>) -> Option<f64> {
@@ -266,6 +274,7 @@ impl<const S: usize> Default for Configuration<S> {
             response: Vec::new(),
             kinematics: Vec::new(),
             loads: Vec::new(),
+            dead: Vec::new(),
             base_load: LoadWrench::none(),
             tip_load: LoadWrench::none(),
             joints: Vec::new(),
@@ -278,6 +287,16 @@ impl<const S: usize> Configuration<S> {
     fn clear(&mut self) {
         self.defect.clear();
         self.joints.clear();
+    }
+
+    /// The distributed loads of element i.
+    #[inline(always)]
+    pub(crate) fn stage_loads(&self, i: usize) -> StageLoads<'_, S> {
+        match (self.dead.get(i), self.loads.get(i)) {
+            (Some(dead), _) => StageLoads::Dead(dead),
+            (None, Some(loads)) => StageLoads::Any(loads),
+            (None, None) => StageLoads::None,
+        }
     }
 
     /// The law says nothing about strains that are fixed: the wrench that goes with them is what the balance asks for.

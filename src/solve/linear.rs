@@ -274,11 +274,13 @@ pub(super) fn kind_of_elements<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     state: &Configuration<S>,
 ) -> Kind {
-    let loads = state.loads.as_flattened();
+    let (loads, dead) = (state.loads.as_flattened(), state.dead.as_flattened());
     let inside = || planar::carries(&state.node_wrench) && planar::carries(&state.end_wrench);
-    let plane = mesh.is_planar && inside() && loads.iter().all(planar::has);
+    let lie_there = || loads.iter().all(planar::has) && dead.iter().all(|force| force.y == 0.0);
+    let plane = mesh.is_planar && inside() && lie_there();
+    let none = if dead.is_empty() { Loads::None } else { Loads::Dead };
     let kinds = loads.iter().map(Loads::of);
-    let loads = kinds.fold(Loads::None, |all, one| if one > all { one } else { all });
+    let loads = kinds.fold(none, |all, one| if one > all { one } else { all });
     Kind { constraint: mesh.rod.body().constraint(), plane: plane && loads < Loads::Placed, loads }
 }
 

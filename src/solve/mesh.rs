@@ -1,5 +1,7 @@
 //! Where the elements of a rod lie, and what is known about it there before anything is solved.
 
+use nalgebra::Vector3;
+
 use super::unknowns::StageStrains;
 use crate::body::Elastic;
 use crate::lie::{Pose, Strain, Twist};
@@ -23,6 +25,8 @@ pub(crate) struct Mesh<'a, B, const S: usize> {
     reference: Vec<[Twist; S]>,
     /// Whether the rod lies in its plane at rest, and its constraint keeps its strains there.
     pub(crate) is_planar: bool,
+    /// The sum of all loads at the stages where each of them is [dead](crate::load::Load::dead_force), in space; else none, as without loads.
+    pub(crate) dead: Vec<[Vector3<f64>; S]>,
     /// Where a solve starts.
     pub(crate) start: Start,
     /// The loads are multiplied by this, and the supports have come this part of the way from the start to what they hold.
@@ -79,6 +83,7 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
             places: Vec::new(),
             reference: Vec::new(),
             is_planar: false,
+            dead: Vec::new(),
             start,
             load_factor: 1.0,
         };
@@ -87,10 +92,28 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
         mesh.reference = mesh.places.iter().map(twists).collect();
         mesh.is_planar =
             planar::keeps(&rod.body().constraint()) && planar::contains(mesh.reference.as_flattened());
+        mesh.dead = mesh.dead_forces().unwrap_or_default();
         if !mesh.is_cantilever() {
             mesh.start = mesh.placed();
         }
         mesh
+    }
+
+    /// See [`dead`](Self::dead). A load that fails does so again, with its error, when it is asked in full.
+    fn dead_forces(&self) -> Option<Vec<[Vector3<f64>; S]>> {
+        if self.rod.loads().is_empty() {
+            return None;
+        }
+        let mut all = vec![[Vector3::zeros(); S]; self.elements()];
+        for (sum, s) in all.as_flattened_mut().iter_mut().zip(self.places.as_flattened()) {
+            for load in self.rod.loads() {
+                *sum += load.dead_force(self.rod.body(), *s).ok()??;
+            }
+            if !sum.iter().all(|v| v.is_finite()) {
+                return None;
+            }
+        }
+        Some(all)
     }
 
     /// The mesh with element i cut into `parts[i]` equal pieces.

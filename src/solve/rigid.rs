@@ -95,10 +95,10 @@ fn load_stiffness<B: Elastic, const S: usize>(
     for joint in &state.joints {
         add(&joint.pose, &joint.load, 1.0);
     }
-    for (i, stage) in state.loads.iter().enumerate() {
-        for k in 0..S {
-            let pose = state.node_pose[i] * state.kinematics[i].stage[k];
-            add(&pose, &stage[k], mesh.h(i) * mesh.table.b[k]);
+    for (i, motion) in state.kinematics.iter().enumerate() {
+        for (k, pose) in motion.stage.iter().enumerate() {
+            let Some(load) = state.stage_loads(i).at_stage(k, pose) else { break };
+            add(&(state.node_pose[i] * *pose), &load, mesh.h(i) * mesh.table.b[k]);
         }
     }
     (sum, size)

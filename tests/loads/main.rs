@@ -7,6 +7,7 @@ mod fixed_mesh;
 mod reference;
 mod shooting;
 
+mod dead;
 mod derivatives;
 mod messages;
 mod solved;

@@ -43,6 +43,7 @@ impl<const S: usize> Condensed<S> {
         let into = &mut self.rows[place / ELEMENTS * self.layout.rows..][..self.layout.rows];
         let suspect = if kind.plane {
             let (linearised, eliminated) = &mut work.plane;
+            linearised.turning = kind.loads > Loads::Dead;
             for i in block.clone() {
                 linearised.set(i - first, &element(i), &start[i]);
             }

@@ -9,6 +9,7 @@ use crate::load::LoadWrench;
 use crate::material::Response;
 use crate::rod::collocation::Collocation;
 use crate::rod::element::{ElementState, Kinematics};
+use crate::rod::stage_loads::StageLoads;
 
 /// One element and all that its linearisation needs.
 struct Case<const S: usize> {
@@ -17,6 +18,8 @@ struct Case<const S: usize> {
     response: [Response; S],
     start: Wrench,
     load: Option<[LoadWrench; S]>,
+    /// The forces of the same in the frame of the first node, where they are to be taken from there.
+    dead: Option<[Vector3<f64>; S]>,
     constraint: Constraint,
     kinematics: Kinematics<f64, S>,
     stage_wrench: [Wrench; S],
@@ -71,10 +74,15 @@ fn case<const S: usize>(table: &Collocation<S>, seed: &mut u64, kind: &Kind) -> 
     let load = (kind.loads != Loads::None).then(|| std::array::from_fn(|_| load(seed, kind)));
     let h = 0.3 + 0.1 * noise(seed);
     let kinematics = Kinematics::new(table, &xi, h);
-    let loads = load.map(|stage: [LoadWrench; S]| stage.map(|load| load.wrench));
-    let (stage_wrench, end) = kinematics.wrenches_from_start(table, &start, loads.as_ref(), h);
+    let loads = load.map(|stage: [LoadWrench; S]| kinematics.at_node(&stage.map(|load| load.wrench)));
+    let (stage_wrench, end) = kinematics.wrenches_from_start(table, &start, loads, h);
     let constraint = kind.constraint;
-    Case { h, xi, response, start, load, constraint, kinematics, stage_wrench, end }
+    // one way and the other in turn
+    let as_dead = kind.loads == Loads::Dead && noise(seed) > 0.0;
+    let force =
+        |load: [LoadWrench; S]| std::array::from_fn(|k| kinematics.stage[k].rotation * load[k].wrench.force);
+    let dead = load.filter(|_| as_dead).map(force);
+    Case { h, xi, response, start, load, dead, constraint, kinematics, stage_wrench, end }
 }
 
 impl<const S: usize> Case<S> {
@@ -86,7 +94,11 @@ impl<const S: usize> Case<S> {
             response: &self.response,
             stage_wrench: &self.stage_wrench,
             wrench_at_end: &self.end,
-            load: self.load.as_ref(),
+            load: match (&self.dead, &self.load) {
+                (Some(dead), _) => StageLoads::Dead(dead),
+                (None, Some(load)) => StageLoads::Any(load),
+                (None, None) => StageLoads::None,
+            },
             constraint: self.constraint,
         }
     }
@@ -311,20 +323,32 @@ fn what_an_element_answers_is_what_its_columns_say() {
 #[test]
 fn wrenches_in_the_plane_are_those_in_space() {
     let (table, mut seed) = (Collocation::<3>::gauss(), 29);
-    let kind = Kind { constraint: Constraint::planar(), plane: true, loads: Loads::None };
-    for _ in 0..20 {
-        let Case { kinematics, end, .. } = case(&table, &mut seed, &kind);
-        let (mut space, mut plane) = ([Wrench::zero(); 3], [Wrench::zero(); 3]);
-        let starts = [
-            kinematics.wrenches_without_load(&end, &mut space),
-            planar::wrenches(&kinematics, &end, &mut plane),
-        ];
-        let size = starts[0].to_vector().norm();
-        let pairs = space.iter().zip(&plane).chain([(&starts[0], &starts[1])]);
-        for (a, b) in pairs {
-            let error = (*a - *b).to_vector().norm();
-            // a dozen roundings
-            assert!(error < 1e-15 * 5.0 * size.max(end.to_vector().norm()), "{error:.1e} of {size:.1e}");
+    for loads in [Loads::None, Loads::Dead] {
+        let kind = Kind { constraint: Constraint::planar(), plane: true, loads };
+        for _ in 0..20 {
+            let Case { kinematics, end, load, h, .. } = case(&table, &mut seed, &kind);
+            let (mut space, mut plane) = ([Wrench::zero(); 3], [Wrench::zero(); 3]);
+            let start = if let Some(load) = &load {
+                let node_loads = kinematics.at_node(&load.map(|load| load.wrench));
+                let start = kinematics.wrench_at_start(&table, &end, &node_loads, h);
+                space = kinematics.stage_wrenches(&table, &start, &node_loads, h);
+                start
+            } else {
+                kinematics.wrenches_without_load(&end, &mut space)
+            };
+            let force = |load: [LoadWrench; 3]| {
+                std::array::from_fn(|k| kinematics.stage[k].rotation * load[k].wrench.force)
+            };
+            let forces = load.map(force);
+            let forces = forces.as_ref().map(|forces| (h, forces));
+            let starts = [start, planar::wrenches(&table, &kinematics, &end, forces, &mut plane)];
+            let size = starts[0].to_vector().norm() + if load.is_some() { 1.0 } else { 0.0 };
+            let pairs = space.iter().zip(&plane).chain([(&starts[0], &starts[1])]);
+            for (a, b) in pairs {
+                let error = (*a - *b).to_vector().norm();
+                // a dozen roundings
+                assert!(error < 1e-15 * 5.0 * size.max(end.to_vector().norm()), "{error:.1e} of {size:.1e}");
+            }
         }
     }
 }

@@ -65,12 +65,6 @@ pub(super) fn scale<L: Lane>(k: L, a: &Vector<L>) -> Vector<L> {
     [k * a[0], k * a[1], k * a[2]]
 }
 
-/// M v.
-#[inline(always)]
-pub(super) fn times<L: Lane>(m: &Matrix<L>, v: &Vector<L>) -> Vector<L> {
-    [dot(&m[0], v), dot(&m[1], v), dot(&m[2], v)]
-}
-
 /// Mᵀ v.
 #[inline(always)]
 pub(super) fn transpose_times<L: Lane>(m: &Matrix<L>, v: &Vector<L>) -> Vector<L> {

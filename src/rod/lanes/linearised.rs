@@ -44,9 +44,9 @@ pub(crate) struct Linearised {
 /// Distributed loads that do not depend on where they act, and what they make of the wrenches.
 #[derive(Clone)]
 pub(super) struct Loads {
-    /// At the stages.
+    /// At the stages, in their frames; of loads that do not turn the force alone, in the frame of the first node.
     pub(super) wrench: [[Row; 6]; STAGES],
-    /// Its derivative in the rotation of the section: moment and force.
+    /// Its derivative in the rotation of the section, of loads that turn: moment and force.
     pub(super) slope: [[MatrixRows; 2]; STAGES],
     /// Λ at stages and end.
     pub(super) internal: [[Row; 6]; STAGES + 1],
@@ -90,19 +90,35 @@ impl Linearised {
             }
         }
         put(&mut self.wrench_at_start, i, &start.to_array());
-        self.loaded = element.load.is_some();
+        self.loaded = !element.load.is_none();
         if self.loaded {
-            self.loads.set(i, element);
+            self.loads.set(i, element, self.turning);
         }
     }
 }
 
 impl Loads {
-    fn set<const S: usize>(&mut self, i: usize, element: &ElementState<'_, S>) {
-        let Some(loads) = element.load else { return };
-        for (k, load) in loads.iter().enumerate() {
+    fn set<const S: usize>(&mut self, i: usize, element: &ElementState<'_, S>, turning: bool) {
+        for (rows, wrench) in self.internal.iter_mut().zip(element.stage_wrench) {
+            put(rows, i, &wrench.to_array());
+        }
+        put(&mut self.internal[S], i, &element.wrench_at_end.to_array());
+        if turning {
+            self.set_turning(i, element);
+            return;
+        }
+        for k in 0..S {
+            let force = element.dead_force(k);
+            for (row, value) in self.wrench[k][3..].iter_mut().zip(&force) {
+                row[i] = *value;
+            }
+        }
+    }
+
+    fn set_turning<const S: usize>(&mut self, i: usize, element: &ElementState<'_, S>) {
+        for (k, pose) in element.kinematics.stage.iter().enumerate() {
+            let Some(load) = element.load.at_stage(k, pose) else { return };
             put(&mut self.wrench[k], i, &load.wrench.to_array());
-            put(&mut self.internal[k], i, &element.stage_wrench[k].to_array());
             for r in 0..3 {
                 for c in 0..3 {
                     self.slope[k][0][r][c][i] = load.tangent[(r, c)];
@@ -110,7 +126,6 @@ impl Loads {
                 }
             }
         }
-        put(&mut self.internal[S], i, &element.wrench_at_end.to_array());
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::algebra::{
     Forms, Matrix, Pair, add, add_hat, add_multiple, add_product, cross_columns, product, product_transpose,
-    subtract_product, times, transpose_product, zeros,
+    subtract_product, transpose_product, zeros,
 };
 use super::eliminate::System;
 use super::linearised::Linearised;
@@ -78,9 +78,8 @@ impl Terms {
     pub(super) fn set_turn<L: Lane>(&mut self, l: usize, pose: &Placed<L>, state: &Linearised, at: usize) {
         let (r, p) = (&pose.rotation, &pose.position);
         if !state.turning {
-            // R f^ Rᵀ = (R f)^
             let load: Pair<L> = load_pair(&state.loads.wrench[l], at);
-            let force = add_hat(&zeros(), L::splat(1.0), &times(r, &load.second));
+            let force = add_hat(&zeros(), L::splat(1.0), &load.second);
             store_matrix(&cross_columns(p, &force), &mut self.e[l][0], at);
             store_matrix(&force, &mut self.e[l][1], at);
             return;
@@ -214,10 +213,12 @@ impl<L: Lane> Moved<L> {
         let minus = L::splat(-1.0);
         let load: Pair<L> = load_pair(&state.loads.wrench[l], at);
         let (r, p) = (&pose.rotation, &pose.position);
-        let linear = product(r, &add_hat(&zeros(), minus, &load.second));
         if !state.turning {
+            // R (Rᵀ f)^ = f^ R
+            let linear = add_multiple(zeros(), minus, &cross_columns(&load.second, r));
             return Self { moment: Forms { angular: zeros(), linear }, force: zeros() };
         }
+        let linear = product(r, &add_hat(&zeros(), minus, &load.second));
         let [moment, force] = slope(state, l, at);
         let by_turn = product(r, &add_hat(&force, minus, &load.second));
         let lever = cross_columns(p, &by_turn);

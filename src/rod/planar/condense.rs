@@ -116,17 +116,19 @@ impl Kernel for Condense<'_> {
                 let loads = Loads::new(stages, &pose, &variation, state, at);
                 let h = L::load(&state.twists.h[at..]);
                 for k in 0..stages {
-                    let (turn, strain) = loads.brought(stages, &table.a[k], h, &pose[k]);
+                    let (turn, strain) = loads.brought((stages, state.turning), &table.a[k], h, &pose[k]);
                     for m in 0..stages {
                         let ((moment, force), row) = strain[m];
                         system.angular[k][m] = system.angular[k][m] + moment;
-                        system.to_linear[k][m] = system.to_linear[k][m] + force;
                         system.from_linear[k][m] = system.from_linear[k][m] + row;
+                        if state.turning {
+                            system.to_linear[k][m] = system.to_linear[k][m] + force;
+                        }
                     }
                     system.angular_rhs[k][4] = -turn.0;
                     system.linear_rhs[k][4] = Complex::zero() - turn.1;
                 }
-                (end_turn, ends) = loads.brought(stages, &table.b, h, &pose[stages]);
+                (end_turn, ends) = loads.brought((stages, state.turning), &table.b, h, &pose[stages]);
             }
             system.solve(stages, soft, &mut suspect);
             finish(&system, stages, (&variation[stages], &wrench[stages]), (&end_turn, &ends), at, out);
@@ -188,7 +190,8 @@ fn assemble<L: Lane>(
 }
 
 impl<L: Lane> Loads<L> {
-    /// g_l = Ad_l⁻ᵀ(D_l − L(f̄_l)) B_l, e_l = Ad_l⁻ᵀ D_l, for loads that do not depend on where they act.
+    /// g_l = Ad_l⁻ᵀ(D_l − L(f̄_l)) B_l, e_l = Ad_l⁻ᵀ D_l, for loads that do not depend on where they act. A load that is not turning keeps its force in
+    /// space: only its lever changes.
     #[inline(always)]
     fn new(
         stages: usize,
@@ -204,7 +207,18 @@ impl<L: Lane> Loads<L> {
             turn: [none; STAGES],
         };
         for l in 0..stages {
-            let (_, force) = load_wrench::<L>(&state.load[l], at);
+            let (_, mut force) = load_wrench::<L>(&state.load[l], at);
+            if !state.turning {
+                // −i f w
+                let turned = Complex::zero() - force.turned();
+                loads.turn[l] = (pose[l].position.cross(turned), turned);
+                force = pose[l].turn.conj() * force;
+                for m in 0..stages {
+                    loads.angular[l][m].0 = -force.cross(variation[l][m].lower);
+                    loads.linear[l][m] = minus_cross_row(force, variation[l][m].diagonal);
+                }
+                continue;
+            }
             let slope = load_wrench::<L>(&state.slope[l], at);
             loads.turn[l] = at_node(&pose[l], &slope);
             let turned = slope.1 + force.turned();
@@ -222,7 +236,7 @@ impl<L: Lane> Loads<L> {
     #[inline(always)]
     fn brought(
         &self,
-        stages: usize,
+        (stages, turning): (usize, bool),
         weights: &[f64; STAGES],
         h: L,
         pose: &Placed<L>,
@@ -233,12 +247,18 @@ impl<L: Lane> Loads<L> {
             let weight = h * L::splat(weights[l]);
             turn = add_scaled(&turn, weight, &self.turn[l]);
             for m in 0..stages {
-                strain[m].0 = add_scaled(&strain[m].0, weight, &self.angular[l][m]);
+                if turning {
+                    strain[m].0 = add_scaled(&strain[m].0, weight, &self.angular[l][m]);
+                } else {
+                    strain[m].0.0 = weight.mul_add(self.angular[l][m].0, strain[m].0.0);
+                }
                 strain[m].1 = strain[m].1.add_scaled(weight, self.linear[l][m]);
             }
         }
-        for m in 0..stages {
-            strain[m].0 = carried(pose, &strain[m].0);
+        if turning {
+            for m in 0..stages {
+                strain[m].0 = carried(pose, &strain[m].0);
+            }
         }
         (carried(pose, &turn), strain)
     }

@@ -69,22 +69,47 @@ pub(crate) fn kinematics<const S: usize>(
     }
 }
 
-/// As [`Kinematics::wrenches_without_load`], of an element in the plane and a wrench in it.
+/// Λ_i, and Λ_k into `stage`, from the wrench at the end of an element in the plane; `forces` are those of dead loads, in the frame of the first node.
 pub(crate) fn wrenches<const S: usize>(
+    table: &Collocation<S>,
     motion: &Kinematics<f64, S>,
     at_end: &Wrench,
+    forces: Option<(f64, &[Vector3<f64>; S])>,
     stage: &mut [Wrench; S],
 ) -> Wrench {
+    let lever = |p: &Vector3<f64>, z: f64, x: f64| p.z * x - p.x * z;
+    let mut loads = [[0.0; 3]; S];
+    if let Some((h, forces)) = forces {
+        for ((load, force), pose) in loads.iter_mut().zip(forces).zip(&motion.stage) {
+            let (z, x) = (h * force.z, h * force.x);
+            *load = [lever(&pose.position, z, x), z, x];
+        }
+    }
     let rotation = |pose: &Pose| (pose.rotation[(0, 0)], pose.rotation[(0, 2)]);
     let wrench = |moment, z, x| Wrench::new(Vector3::new(0.0, moment, 0.0), Vector3::new(x, 0.0, z));
     let ((cos, sin), p) = (rotation(&motion.end), &motion.end.position);
     let (z, x) = (cos * at_end.force.z - sin * at_end.force.x, cos * at_end.force.x + sin * at_end.force.z);
-    let moment = at_end.moment.y + p.z * x - p.x * z;
-    for (stage, pose) in stage.iter_mut().zip(&motion.stage) {
-        let ((cos, sin), p) = (rotation(pose), &pose.position);
-        *stage = wrench(moment - (p.z * x - p.x * z), cos * z + sin * x, cos * x - sin * z);
+    let mut start = [at_end.moment.y + lever(p, z, x), z, x];
+    if forces.is_some() {
+        start = less(start, &loads, &table.b.map(|b| -b));
     }
-    wrench(moment, z, x)
+    for (k, (stage, pose)) in stage.iter_mut().zip(&motion.stage).enumerate() {
+        let ((cos, sin), p) = (rotation(pose), &pose.position);
+        let [moment, z, x] = if forces.is_some() { less(start, &loads, &table.a[k]) } else { start };
+        *stage = wrench(moment - lever(p, z, x), cos * z + sin * x, cos * x - sin * z);
+    }
+    wrench(start[0], start[1], start[2])
+}
+
+/// `sum` − Σ weight × load.
+#[inline(always)]
+fn less<const S: usize>(mut sum: [f64; 3], loads: &[[f64; 3]; S], weights: &[f64; S]) -> [f64; 3] {
+    for (load, weight) in loads.iter().zip(weights) {
+        for r in 0..3 {
+            sum[r] -= weight * load[r];
+        }
+    }
+    sum
 }
 
 #[inline(never)]

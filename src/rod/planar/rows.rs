@@ -44,11 +44,15 @@ pub(in crate::rod) struct Linearised {
     /// K by its rows (y; z, x): yy, yz, yx, zz, zx, xx.
     pub(super) tangent: [[Row; 6]; STAGES],
     pub(super) wrench_at_start: Three,
-    /// Where there are distributed loads: Λ at the stages and the end, the loads, and their change with the rotation of the section.
+    /// Where there are distributed loads: Λ at the stages and the end, and the loads at the stages; of loads that do not turn the force alone, in the frame
+    /// of the first node.
     pub(super) wrench: [Three; STAGES + 1],
     pub(super) load: [Three; STAGES],
+    /// Change of the loads with the rotation of the section, where they turn.
     pub(super) slope: [Three; STAGES],
     pub(super) loaded: bool,
+    /// Whether the forces, or moments, of the loads change in space with the rotation of the section.
+    pub(in crate::rod) turning: bool,
 }
 
 impl Linearised {
@@ -62,6 +66,7 @@ impl Linearised {
             load: [NONE; STAGES],
             slope: [NONE; STAGES],
             loaded: false,
+            turning: false,
         }
     }
 
@@ -82,13 +87,23 @@ impl Linearised {
             }
         }
         put(&mut self.wrench_at_start, i, &start.to_array());
-        self.loaded = element.load.is_some();
-        let Some(loads) = element.load else { return };
-        for (k, load) in loads.iter().enumerate() {
-            put(&mut self.load[k], i, &load.wrench.to_array());
-            let slope = load.tangent.column(1);
-            put(&mut self.slope[k], i, &std::array::from_fn(|r| slope[r]));
+        self.loaded = !element.load.is_none();
+        if self.loaded {
+            self.set_loads(i, element);
+        }
+    }
+
+    fn set_loads<const S: usize>(&mut self, i: usize, element: &ElementState<'_, S>) {
+        for (k, pose) in element.kinematics.stage.iter().enumerate() {
             put(&mut self.wrench[k], i, &element.stage_wrench[k].to_array());
+            if !self.turning {
+                let force = element.dead_force(k);
+                (self.load[k][1][i], self.load[k][2][i]) = (force.z, force.x);
+            } else if let Some(load) = element.load.at_stage(k, pose) {
+                put(&mut self.load[k], i, &load.wrench.to_array());
+                let slope = load.tangent.column(1);
+                put(&mut self.slope[k], i, &std::array::from_fn(|r| slope[r]));
+            }
         }
         put(&mut self.wrench[S], i, &element.wrench_at_end.to_array());
     }
