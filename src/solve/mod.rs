@@ -26,6 +26,7 @@ mod scale;
 mod solution;
 mod stability;
 mod statics;
+mod supports;
 mod sweep;
 mod tendon_length;
 mod unknowns;
