@@ -63,13 +63,18 @@ impl<const S: usize> DeadSweep<S> {
         block: Range<usize>,
         wrenches: &[Wrench],
     ) -> Option<()> {
+        let plane = elements.is_plane();
+        if !plane {
+            self.answers.turn(elements, place, &wrenches[block.clone()]);
+        }
         for i in block.clone().rev() {
-            let (at, start) = (place + i - block.start, &wrenches[i]);
+            let lane = i - block.start;
             let stiffness;
-            (self.relations[i], stiffness) = if elements.is_plane() {
-                step_back_in_plane(&elements.dead_in_plane(at, start), &self.relations[i + 1])?
+            (self.relations[i], stiffness) = if plane {
+                let blocks = elements.dead_in_plane(place + lane, &wrenches[i]);
+                step_back_in_plane(&blocks, &self.relations[i + 1])?
             } else {
-                step_back(&elements.dead_in_space(at, start), &self.relations[i + 1])?
+                step_back(&self.answers.turned(lane), &self.relations[i + 1])?
             };
             // not min, which would drop a NaN
             self.least = if stiffness > self.least { self.least } else { stiffness };

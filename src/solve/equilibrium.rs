@@ -142,7 +142,8 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
                 state.wrench = carried + state.applied;
                 before = state.wrench;
             }
-            let (motion, h, loads) = (&into.kinematics[i], self.h(i), into.stage_loads(i));
+            let (motion, h, loads) =
+                (&into.kinematics[i], self.h(i), stage_loads(&into.dead, &into.loads, i));
             if independent {
                 let start = &into.node_wrench[i];
                 let (stage, end) = motion.wrenches_from_start(&self.table, start, loads.at_node(motion), h);
@@ -150,22 +151,22 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
                 into.defect.push(end - before);
                 continue;
             }
-            let mut stage = [Wrench::zero(); S];
-            let start = match loads {
-                StageLoads::None if plane => planar::wrenches(&self.table, motion, &before, None, &mut stage),
+            into.end_wrench[i] = before;
+            let stage = &mut into.stage_wrench[i];
+            into.node_wrench[i] = match loads {
+                StageLoads::None if plane => planar::wrenches(&self.table, motion, &before, None, stage),
                 StageLoads::Dead(forces) if plane => {
-                    planar::wrenches(&self.table, motion, &before, Some((h, forces)), &mut stage)
+                    planar::wrenches(&self.table, motion, &before, Some((h, forces)), stage)
                 }
                 _ => match loads.at_node(motion) {
-                    None => motion.wrenches_without_load(&before, &mut stage),
+                    None => motion.wrenches_without_load(&before, stage),
                     Some(loads) => {
                         let start = motion.wrench_at_start(&self.table, &before, &loads, h);
-                        stage = motion.stage_wrenches(&self.table, &start, &loads, h);
+                        *stage = motion.stage_wrenches(&self.table, &start, &loads, h);
                         start
                     }
                 },
             };
-            (into.node_wrench[i], into.stage_wrench[i], into.end_wrench[i]) = (start, stage, before);
         }
         into.defect.reverse();
         into.take_reactions(&self.rod.body().constraint());
@@ -259,6 +260,20 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
     }
 }
 
+/// Of element i, from those of all.
+#[inline(always)]
+fn stage_loads<'a, const S: usize>(
+    dead: &'a [[Vector3<f64>; S]],
+    any: &'a [[LoadWrench; S]],
+    i: usize,
+) -> StageLoads<'a, S> {
+    match (dead.get(i), any.get(i)) {
+        (Some(dead), _) => StageLoads::Dead(dead),
+        (None, Some(loads)) => StageLoads::Any(loads),
+        (None, None) => StageLoads::None,
+    }
+}
+
 fn sum(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     a.zip(b).map(|(a, b)| a + b)
 }
@@ -292,11 +307,7 @@ impl<const S: usize> Configuration<S> {
     /// The distributed loads of element i.
     #[inline(always)]
     pub(crate) fn stage_loads(&self, i: usize) -> StageLoads<'_, S> {
-        match (self.dead.get(i), self.loads.get(i)) {
-            (Some(dead), _) => StageLoads::Dead(dead),
-            (None, Some(loads)) => StageLoads::Any(loads),
-            (None, None) => StageLoads::None,
-        }
+        stage_loads(&self.dead, &self.loads, i)
     }
 
     /// The law says nothing about strains that are fixed: the wrench that goes with them is what the balance asks for.

@@ -2,7 +2,7 @@
 //!
 //! δm_i = S_i w_i + s_i and δn_i = n_i × w_i put into the columns of δΛ_i leave those of w_i and of 1.
 
-use super::{Condensed, Layout};
+use super::{Condensed, DeadBlocks, Layout};
 use crate::lie::{Strain, Wrench};
 use crate::rod::lanes::{self, ELEMENTS, NOTHING, Row};
 use crate::rod::planar;
@@ -17,11 +17,13 @@ pub(crate) struct Answers<const S: usize> {
     /// Of a block.
     size: usize,
     rows: Vec<Row>,
+    /// Of one block in space, by (δm_i, 1, w_i).
+    turned: Vec<Row>,
 }
 
 impl<const S: usize> Default for Answers<S> {
     fn default() -> Self {
-        Self { plane: false, strains: &[], size: 0, rows: Vec::new() }
+        Self { plane: false, strains: &[], size: 0, rows: Vec::new(), turned: Vec::new() }
     }
 }
 
@@ -41,9 +43,45 @@ impl<const S: usize> Answers<S> {
         self.size = if plane { (strains.len() * S + 4) * 2 + 2 } else { (strains.len() * S + 9) * 4 + 9 };
         // what is there is overwritten
         self.rows.resize(self.rows.len().max(count.div_ceil(ELEMENTS) * self.size), NOTHING);
+        let turned = (strains.len() * S + lanes::END) * lanes::DEAD_COLUMNS + 9;
+        self.turned.resize(self.turned.len().max(turned), NOTHING);
     }
 
-    /// Takes over a block: its elements are in `elements` from `place` on, and from `first` on here.
+    /// Looks at a block in space: its elements are in `elements` from `place` on, and have these wrenches at their starts.
+    pub(crate) fn turn(&mut self, elements: &Condensed<S>, place: usize, start: &[Wrench]) {
+        let layout = &elements.layout;
+        let mut force = [NOTHING; 3];
+        for (lane, wrench) in start.iter().enumerate() {
+            for i in 0..3 {
+                force[i][lane] = wrench.force[i];
+            }
+        }
+        let strains = S * layout.strains.len();
+        lanes::turn(elements.block(place), layout.columns, strains, &force, start.len(), &mut self.turned);
+    }
+
+    /// Element number `lane` of the block that was last looked at.
+    #[inline(always)]
+    pub(crate) fn turned(&self, lane: usize) -> DeadBlocks<3> {
+        const W: usize = lanes::DEAD_COLUMNS;
+        let from = S * self.strains.len() * W;
+        let rows = &self.turned[from..from + lanes::END * W];
+        let mut t = DeadBlocks::zero();
+        for r in 0..3 {
+            let (turn, moment) = (&rows[r * W..][..W], &rows[(6 + r) * W..][..W]);
+            for c in 0..3 {
+                t.turn_from_moment[r][c] = turn[c][lane];
+                t.turn_from_turn[r][c] = turn[4 + c][lane];
+                t.moment_from_moment[r][c] = moment[c][lane];
+                t.moment_from_turn[r][c] = moment[4 + c][lane];
+            }
+            (t.turn[r], t.moment[r]) = (turn[3][lane], moment[3][lane]);
+        }
+        t
+    }
+
+    /// Takes over a block: its elements are in `elements` from `place` on, and from `first` on here. In space it is the one last
+    /// [looked at](Self::turn).
     pub(crate) fn take(
         &mut self,
         first: usize,
@@ -69,7 +107,7 @@ impl<const S: usize> Answers<S> {
         if self.plane {
             planar::answer(from, layout.columns, strains, &relation, &force, count, into);
         } else {
-            lanes::answer(from, layout.columns, strains, &relation, &force, count, into);
+            lanes::answer(&self.turned, strains + lanes::END, &relation, count, into);
         }
     }
 

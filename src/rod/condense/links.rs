@@ -46,7 +46,7 @@ impl<const N: usize> Blocks<N> {
 }
 
 impl<const M: usize> DeadBlocks<M> {
-    fn zero() -> Self {
+    pub(super) fn zero() -> Self {
         let (matrix, vector) = ([[0.0; M]; M], [0.0; M]);
         Self {
             turn_from_turn: matrix,
@@ -109,46 +109,7 @@ impl<const S: usize> Condensed<S> {
         t
     }
 
-    /// Of an element whose loads are dead, with the wrench at its start.
-    pub(crate) fn dead_in_space(&self, i: usize, start: &Wrench) -> DeadBlocks<3> {
-        let (layout, block, lane) = (&self.layout, self.block(i), i % ELEMENTS);
-        let pose = &block[layout.pose()..];
-        let rotation = |r: usize, c: usize| pose[3 * r + c][lane];
-        let p = [pose[9][lane], pose[10][lane], pose[11][lane]];
-        let zeta = |r, c| block[layout.zeta(r, c)][lane];
-        let wrench = |r, c| block[layout.wrench(r, c)][lane];
-        let n = [start.force.x, start.force.y, start.force.z];
-        // columns of n^ are n × e_c; what a moment p × (n × e_c) takes away at the end is Rᵀ of it
-        let hat = [[0.0, -n[2], n[1]], [n[2], 0.0, -n[0]], [-n[1], n[0], 0.0]];
-        let mut t = DeadBlocks::zero();
-        let loaded = layout.columns > 7;
-        for c in 0..3 {
-            let [x, y, z] = [hat[0][c], hat[1][c], hat[2][c]];
-            let lever = [p[1] * z - p[2] * y, p[2] * x - p[0] * z, p[0] * y - p[1] * x];
-            for r in 0..3 {
-                let mut turn = rotation(c, r);
-                let mut moment = 0.0;
-                for j in 0..3 {
-                    turn += zeta(r, 3 + j) * hat[j][c];
-                    moment += wrench(r, 3 + j) * hat[j][c] - rotation(j, r) * lever[j];
-                }
-                if loaded {
-                    turn += zeta(r, 7 + c);
-                    moment += wrench(r, 7 + c);
-                }
-                t.turn_from_moment[r][c] = zeta(r, c);
-                t.turn_from_turn[r][c] = turn;
-                t.moment_from_turn[r][c] = moment;
-                t.moment_from_moment[r][c] = wrench(r, c) + rotation(c, r);
-            }
-        }
-        for r in 0..3 {
-            (t.turn[r], t.moment[r]) = (zeta(r, 6), wrench(r, 6));
-        }
-        t
-    }
-
-    /// The same of an element of the plane.
+    /// Of an element of the plane whose loads are dead, with the wrench at its start.
     pub(crate) fn dead_in_plane(&self, i: usize, start: &Wrench) -> DeadBlocks<1> {
         let (layout, block, lane) = (&self.layout, self.block(i), i % ELEMENTS);
         let pose = &block[layout.pose()..];

@@ -272,6 +272,9 @@ fn answers_agree<const S: usize>() {
         }
         let mut answers = Answers::default();
         answers.begin(&block, ELEMENTS);
+        if !kind.plane {
+            answers.turn(&block, 0, &start);
+        }
         answers.take(0, &block, 0, &relations, &start);
         let mut strains = Vec::new();
         answers.strains(0, &turns, &mut strains);

@@ -25,7 +25,7 @@ use condense::Scratch;
 use motion::Motions;
 use rows::{BlockRows, NO_BLOCK};
 
-pub(super) use answer::answer;
+pub(super) use answer::{DEAD_COLUMNS, END, answer, turn};
 pub(crate) use eliminate::LEAST_DETERMINANT;
 pub(super) use eliminate::LEAST_STIFFNESS;
 pub(crate) use linearised::{Linearised, Twists};
