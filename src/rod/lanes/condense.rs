@@ -81,7 +81,7 @@ impl Kernel for Condense<'_> {
                         place.assemble_stiff(table, k, &wrench, state, at, scratch);
                     }
                     begin_columns(k, (&pose, &wrench), state, at, &mut out);
-                    if state.loaded {
+                    if state.loaded && state.turning {
                         scratch.terms.set_turn(k, &pose, state, at);
                     }
                     continue;
@@ -90,7 +90,11 @@ impl Kernel for Condense<'_> {
                 if state.loaded {
                     let h = L::load(&state.twists.h[at..]);
                     let (terms, system) = (&mut scratch.terms, &mut scratch.system);
-                    terms.add(table, &scratch.pose, (h, soft, state.turning), system, out.strain, at);
+                    if state.turning {
+                        terms.add(table, &scratch.pose, (h, soft), system, out.strain, at);
+                    } else {
+                        terms.add_dead(table, &scratch.pose, (h, soft, state), system, out.strain, at);
+                    }
                 }
                 if state.fixed[..3] != [false; 3] {
                     scratch.system.fix(&state.fixed, stages, out.strain);

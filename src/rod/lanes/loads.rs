@@ -18,12 +18,12 @@ use crate::scalar::Lane;
 #[derive(Clone)]
 pub(super) struct Terms {
     /// Moment by δω_m, moment by δν_m, force by δω_m; a force is not changed by a displacement.
-    g: [[[MatrixRows; 3]; STAGES]; STAGES],
-    /// Moment and force.
+    pub(super) g: [[[MatrixRows; 3]; STAGES]; STAGES],
+    /// Moment and force, of loads that turn.
     e: [[MatrixRows; 2]; STAGES],
     /// g and e at the end: Ad_eᵀ h Σ b_l of them.
-    end: [[MatrixRows; 3]; STAGES],
-    turn: [MatrixRows; 2],
+    pub(super) end: [[MatrixRows; 3]; STAGES],
+    pub(super) turn: [MatrixRows; 2],
 }
 
 impl Terms {
@@ -73,17 +73,10 @@ impl Terms {
         store_matrix(g, &mut self.g[l][m][if force { 2 } else { 0 }], at);
     }
 
-    /// e_l = Ad_l⁻ᵀ D_l Ad_l⁻¹.
+    /// e_l = Ad_l⁻ᵀ D_l Ad_l⁻¹, of loads that turn.
     #[inline(always)]
     pub(super) fn set_turn<L: Lane>(&mut self, l: usize, pose: &Placed<L>, state: &Linearised, at: usize) {
         let (r, p) = (&pose.rotation, &pose.position);
-        if !state.turning {
-            let load: Pair<L> = load_pair(&state.loads.wrench[l], at);
-            let force = add_hat(&zeros(), L::splat(1.0), &load.second);
-            store_matrix(&cross_columns(p, &force), &mut self.e[l][0], at);
-            store_matrix(&force, &mut self.e[l][1], at);
-            return;
-        }
         let [moment, force] = slope::<L>(state, l, at);
         let force = product(r, &product_transpose(&force, r));
         let moment = add_product(cross_columns(p, &force), r, &product_transpose(&moment, r));
@@ -91,13 +84,13 @@ impl Terms {
         store_matrix(&force, &mut self.e[l][1], at);
     }
 
-    /// Adds Ad_kᵀ h Σ a_kl δF_l to the equations of the stages, and notes the same of the end.
+    /// Adds Ad_kᵀ h Σ a_kl δF_l to the equations of the stages, and notes the same of the end; of loads that turn.
     #[inline(always)]
     pub(super) fn add<L: Lane>(
         &mut self,
         table: &Table,
         poses: &[[super::Row; 12]; STAGES + 1],
-        (h, soft, turning): (L, bool, bool),
+        (h, soft): (L, bool),
         system: &mut System,
         strain: &mut [[BlockRows; 2]; STAGES],
         at: usize,
@@ -111,16 +104,12 @@ impl Terms {
                 for l in 0..stages {
                     let weight = h * L::splat(weights[l]);
                     for b in 0..3 {
-                        if [true, soft, turning][b] {
+                        if b != 1 || soft {
                             sum[b] = add_multiple(sum[b], weight, &load_matrix(&self.g[l][m][b], at));
                         }
                     }
                 }
-                let [angular, force] = if turning {
-                    brought(&pose, &sum[0], &sum[2])
-                } else {
-                    [transpose_product(&pose.rotation, &sum[0]), sum[2]]
-                };
+                let [angular, force] = brought(&pose, &sum[0], &sum[2]);
                 if k < stages {
                     add_to(&mut system.angular[k][m], &angular, at);
                 } else {
@@ -133,9 +122,7 @@ impl Terms {
                 let linear = transpose_product(&pose.rotation, &sum[1]);
                 if k < stages {
                     add_to(&mut system.from_linear[k][m], &linear, at);
-                    if turning {
-                        add_to(&mut system.to_linear[k][m], &force, at);
-                    }
+                    add_to(&mut system.to_linear[k][m], &force, at);
                 } else {
                     store_matrix(&linear, &mut self.end[m][1], at);
                 }
@@ -242,7 +229,7 @@ fn brought<L: Lane>(pose: &Placed<L>, moment: &Matrix<L>, force: &Matrix<L>) -> 
 }
 
 #[inline(always)]
-fn add_to<L: Lane>(rows: &mut MatrixRows, m: &Matrix<L>, at: usize) {
+pub(super) fn add_to<L: Lane>(rows: &mut MatrixRows, m: &Matrix<L>, at: usize) {
     let mut sum = load_matrix(rows, at);
     for r in 0..3 {
         sum[r] = add(&sum[r], &m[r]);

@@ -7,6 +7,7 @@
 mod algebra;
 mod answer;
 mod condense;
+mod dead_terms;
 mod eliminate;
 mod linearised;
 mod loads;
