@@ -2,14 +2,14 @@
 
 use nalgebra::Vector3;
 
-use super::supports::Supports;
 use super::unknowns::StageStrains;
 use crate::body::Elastic;
+use crate::error::Result;
 use crate::lie::{Pose, Strain, Twist};
 use crate::rod::Rod;
 use crate::rod::collocation::Collocation;
 use crate::rod::element::Kinematics;
-use crate::rod::planar;
+use crate::rod::planar::{self, Held};
 use crate::rod::support::Support;
 
 /// A mesh of collocation elements on a rod, of lengths that may differ.
@@ -23,7 +23,7 @@ pub(crate) struct Mesh<'a, B, const S: usize> {
     /// s of the stages.
     places: Vec<[f64; S]>,
     /// ξ* at the stages.
-    pub(super) reference: Vec<[Twist; S]>,
+    reference: Vec<[Twist; S]>,
     /// Whether the rod lies in its plane at rest, and its constraint keeps its strains there.
     pub(crate) is_planar: bool,
     /// The sum of all loads at the stages where each of them is [dead](crate::load::Load::dead_force), in space; else none, as without loads.
@@ -34,6 +34,26 @@ pub(crate) struct Mesh<'a, B, const S: usize> {
     pub(crate) start: Start,
     /// The loads are multiplied by this, and the supports have come this part of the way from the start to what they hold.
     pub(crate) load_factor: f64,
+}
+
+/// The supports of a rod, without what they [hold across the plane](planar::release_across) of a planar one to no effect.
+#[derive(Clone, Debug)]
+pub(crate) struct Supports {
+    pub(crate) base: Support,
+    pub(crate) tip: Support,
+    /// By the numbers of the joints.
+    pub(crate) joints: Vec<Support>,
+}
+
+impl Supports {
+    fn of<B: Elastic>(rod: &Rod<B>) -> Self {
+        let joints = rod.joints().iter().map(|joint| joint.fixture.support).collect();
+        Self { base: rod.base_fixture().support, tip: rod.tip_fixture().support, joints }
+    }
+
+    fn interior(&self) -> bool {
+        self.joints.iter().any(|support| !support.is_free())
+    }
 }
 
 /// The reference shape, placed where a solve starts.
@@ -109,6 +129,32 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
         mesh
     }
 
+    /// Refuses supports that hold a planar rod out of its plane.
+    pub(crate) fn check_supports(&self) -> Result<()> {
+        self.supports_in_plane(&self.reference_poses()).map(|_| ())
+    }
+
+    /// See [`planar::release_across`]; `None` for a rod that is not planar, or leaves its plane at a corner.
+    fn supports_in_plane(&self, (to_joints, to_tip): &(Vec<Pose>, Pose)) -> Result<Option<Supports>> {
+        if !(self.is_planar && to_joints.iter().chain([to_tip]).all(planar::keeps_to)) {
+            return Ok(None);
+        }
+        let (length, first) = (self.rod.body().length(), self.start.base);
+        let Supports { base, tip, joints } = Supports::of(self.rod);
+        let held = |s, to: &Pose, support| Held { s, pose: first * *to, support };
+        let mut all = vec![held(0.0, &Pose::identity(), base)];
+        for ((to, joint), support) in to_joints.iter().zip(self.rod.joints()).zip(joints) {
+            all.push(held(joint.s, to, support));
+        }
+        all.push(held(length, to_tip, tip));
+        planar::release_across(&mut all, length)?;
+        let mut supports = all.into_iter().map(|held| held.support);
+        let base = supports.next().unwrap_or(base);
+        let mut joints: Vec<Support> = supports.collect();
+        let tip = joints.pop().unwrap_or(tip);
+        Ok(Some(Supports { base, tip, joints }))
+    }
+
     /// See [`dead`](Self::dead). A load that fails does so again, with its error, when it is asked in full.
     fn dead_forces(&self) -> Option<Vec<[Vector3<f64>; S]>> {
         if self.rod.loads().is_empty() {
@@ -169,7 +215,7 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
     }
 
     /// Poses of the joints (before their corners) and of the tip in the frame of the base, at rest.
-    pub(super) fn reference_poses(&self) -> (Vec<Pose>, Pose) {
+    fn reference_poses(&self) -> (Vec<Pose>, Pose) {
         let mut pose = Pose::identity();
         let mut at_joints = Vec::new();
         for i in 0..self.elements() {

@@ -26,7 +26,6 @@ mod scale;
 mod solution;
 mod stability;
 mod statics;
-mod supports;
 mod sweep;
 mod tendon_length;
 mod unknowns;

@@ -237,35 +237,6 @@ fn a_support_that_would_take_a_planar_rod_out_of_its_plane_is_refused_by_name() 
     assert!(message.contains("0.1"), "{message}");
 }
 
-/// Between clamps at its own length or farther apart it has no shape, or a single one with any tension.
-#[test]
-fn supports_farther_apart_than_a_rod_that_cannot_stretch_is_long_are_refused_by_name() {
-    let solve = |constraint: Constraint, far: f64, roller: bool| {
-        let section = Stiffness::diagonal(K).unwrap();
-        let body = Body::new(1.0, section).unwrap().with_constraint(constraint);
-        let at = |x: f64, z: f64| Pose::new(Matrix3::identity(), vector![x, 0.0, z]);
-        let mut rod = Rod::between(body, Support::clamped(at(0.0, 0.0)), Support::clamped(at(0.0, far)));
-        if roller {
-            rod = rod.with_support(0.5, Support::pinned(at(0.0, 0.51))).unwrap();
-        }
-        STATICS.solve(&rod).map_err(|failure| failure.to_string())
-    };
-    let kirchhoff = Constraint::kirchhoff();
-    for (constraint, far, roller) in
-        [(kirchhoff, 1.1, false), (kirchhoff, 1.0, false), (kirchhoff.and(Constraint::planar()), 0.95, true)]
-    {
-        let message = solve(constraint, far, roller).unwrap_err();
-        assert!(
-            message.contains("distance between two supports of a rod that can neither stretch"),
-            "{message}"
-        );
-    }
-    // one that shears grows longer
-    assert!(solve(Constraint::inextensible(), 1.01, false).is_ok());
-    assert!(solve(Constraint::unshearable(), 1.01, false).is_ok());
-    assert!(solve(kirchhoff, 0.99, false).is_ok());
-}
-
 /// Whatever its law says about strains it cannot have: here nothing that could be inverted.
 #[test]
 fn the_law_is_not_asked_about_strains_that_are_fixed() {

@@ -10,11 +10,8 @@ use crate::load::LoadWrench;
 use crate::material::{Request, Response, Station};
 use crate::rod::Support;
 use crate::rod::joint::{Fixture, Joint};
-use crate::rod::planar;
 use crate::rod::support::Condition;
 use crate::section::CrossSection;
-use crate::solve::mesh::Mesh;
-use crate::solve::supports::Supports;
 
 /// Where on the rod.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,23 +80,12 @@ impl<B: Movable> Scene<'_, B> {
         }
     }
 
-    /// What holds the rod there, with its frame as the rod has it, less what a planar rod is held by to no effect.
+    /// What holds the rod there, with its frame as the rod has it.
     pub(super) fn support(&self, place: Place) -> Support {
         if place == Place::Base && self.let_go {
             return Support::free();
         }
-        if self.let_go || !planar::keeps(&self.rod.body().constraint()) {
-            return self.fixture(place).map_or_else(Support::free, |fixture| fixture.support);
-        }
-        let Supports { base, tip, joints } = Mesh::<B, 1>::uniform(self.rod, 1).supports;
-        let mut between = self.rod.joints().iter().zip(joints);
-        match place {
-            Place::Base => base,
-            Place::Between(s) => {
-                between.find(|(joint, _)| joint.s == s).map_or_else(Support::free, |(_, at)| at)
-            }
-            Place::Tip => tip,
-        }
+        self.fixture(place).map_or_else(Support::free, |fixture| fixture.support)
     }
 
     pub(super) fn corner(&self, place: Place) -> Option<Pose> {
