@@ -62,7 +62,7 @@ fn held_joints<'a, B: Elastic, const S: usize>(
 ) -> impl Iterator<Item = (usize, usize, &'a JointState)> {
     let nodes = (1..=mesh.elements()).filter_map(|node| Some((node, mesh.joint_at(node)?)));
     let all = nodes.zip(&state.joints).map(|((node, j), joint)| (node, j, joint));
-    all.filter(|(_, j, _)| !mesh.supports.joints[*j].is_free())
+    all.filter(|(_, j, _)| !mesh.rod.joints()[*j].fixture.support.is_free())
 }
 
 pub(super) fn joint_equations<B: Elastic, const S: usize>(
@@ -70,7 +70,7 @@ pub(super) fn joint_equations<B: Elastic, const S: usize>(
     j: usize,
     joint: &JointState,
 ) -> Equations {
-    let support = &mesh.supports.joints[j];
+    let support = &mesh.rod.joints()[j].fixture.support;
     let target = mesh.target(support, &mesh.start.joints[j]);
     support.linearised(&joint.pose, &joint.applied, &joint.load, &target)
 }
@@ -80,7 +80,7 @@ pub(super) fn base_equations<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     state: &Configuration<S>,
 ) -> Equations {
-    let support = &mesh.supports.base;
+    let support = &mesh.rod.base_fixture().support;
     if support.is_clamped() {
         // a solve starts there and never leaves
         return Equations {
@@ -100,7 +100,7 @@ pub(super) fn tip_equations<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     state: &Configuration<S>,
 ) -> Equations {
-    let (n, support) = (mesh.elements(), &mesh.supports.tip);
+    let (n, support) = (mesh.elements(), &mesh.rod.tip_fixture().support);
     let target = mesh.target(support, &mesh.start.tip);
     support.linearised(&state.node_pose[n], &state.node_wrench[n], &state.tip_load, &target)
 }

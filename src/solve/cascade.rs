@@ -210,7 +210,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         let mut state = self.buffers.configuration();
         // what cannot be evaluated is found again, and named, by the solve
         let held = match probe.configure(&Unknowns::at_rest(&probe), &mut state) {
-            Ok(()) => probe.check_supports().and_then(|()| rigid::check(&probe, &state)),
+            Ok(()) => rigid::check(&probe, &state),
             Err(_) => Ok(()),
         };
         self.buffers.recycle(state);

@@ -59,7 +59,7 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
         let tip_pose = into.node_pose[self.elements()];
         let tip = self.rod.tip_fixture();
         into.tip_load = self.load_on(tip, "tip load", &tip_pose, self.rod.body().length())?;
-        let at_tip = if self.supports.tip.is_free() { into.tip_load.wrench } else { unknowns.tip };
+        let at_tip = if tip.support.is_free() { into.tip_load.wrench } else { unknowns.tip };
         self.balance(unknowns, at_tip, into);
         Ok(())
     }

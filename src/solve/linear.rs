@@ -246,7 +246,7 @@ impl<const S: usize> Buffers<S> {
             let Some(j) = mesh.joint_at(i + 1) else { continue };
             let Some(joint) = joints.next() else { continue };
             let fixed = &mesh.rod.joints()[j];
-            if mesh.supports.joints[j].is_free() {
+            if fixed.fixture.support.is_free() {
                 self.condensed.pass(i, |transfer| pass(transfer, &fixed.corner, &joint.load));
             }
         }

@@ -4,12 +4,11 @@ use nalgebra::Vector3;
 
 use super::unknowns::StageStrains;
 use crate::body::Elastic;
-use crate::error::Result;
 use crate::lie::{Pose, Strain, Twist};
 use crate::rod::Rod;
 use crate::rod::collocation::Collocation;
 use crate::rod::element::Kinematics;
-use crate::rod::planar::{self, Held};
+use crate::rod::planar;
 use crate::rod::support::Support;
 
 /// A mesh of collocation elements on a rod, of lengths that may differ.
@@ -28,32 +27,10 @@ pub(crate) struct Mesh<'a, B, const S: usize> {
     pub(crate) is_planar: bool,
     /// The sum of all loads at the stages where each of them is [dead](crate::load::Load::dead_force), in space; else none, as without loads.
     pub(crate) dead: Vec<[Vector3<f64>; S]>,
-    /// What holds the rod.
-    pub(crate) supports: Supports,
     /// Where a solve starts.
     pub(crate) start: Start,
     /// The loads are multiplied by this, and the supports have come this part of the way from the start to what they hold.
     pub(crate) load_factor: f64,
-}
-
-/// The supports of a rod, without what they [hold across the plane](planar::release_across) of a planar one to no effect.
-#[derive(Clone, Debug)]
-pub(crate) struct Supports {
-    pub(crate) base: Support,
-    pub(crate) tip: Support,
-    /// By the numbers of the joints.
-    pub(crate) joints: Vec<Support>,
-}
-
-impl Supports {
-    fn of<B: Elastic>(rod: &Rod<B>) -> Self {
-        let joints = rod.joints().iter().map(|joint| joint.fixture.support).collect();
-        Self { base: rod.base_fixture().support, tip: rod.tip_fixture().support, joints }
-    }
-
-    fn interior(&self) -> bool {
-        self.joints.iter().any(|support| !support.is_free())
-    }
 }
 
 /// The reference shape, placed where a solve starts.
@@ -96,8 +73,7 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
     pub(crate) fn at(rod: &'a Rod<B>, nodes: Vec<f64>, table: Collocation<S>) -> Self {
         let joints = rod.joints().iter().enumerate();
         let joints = joints.map(|(j, joint)| (nodes.partition_point(|s| *s < joint.s), j)).collect();
-        let supports = Supports::of(rod);
-        let base = &supports.base;
+        let base = &rod.base_fixture().support;
         let start = Start { base: base.pose_at(&base.held()), tip: [0.0; 6], joints: Vec::new() };
         let mut mesh = Self {
             rod,
@@ -108,7 +84,6 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
             reference: Vec::new(),
             is_planar: false,
             dead: Vec::new(),
-            supports,
             start,
             load_factor: 1.0,
         };
@@ -119,40 +94,9 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
             planar::keeps(&rod.body().constraint()) && planar::contains(mesh.reference.as_flattened());
         mesh.dead = mesh.dead_forces().unwrap_or_default();
         if !mesh.is_cantilever() {
-            let poses = mesh.reference_poses();
-            mesh.start = mesh.placed(&poses);
-            // what holds the rod out of its plane is refused by `check_supports`
-            if let Ok(Some(supports)) = mesh.supports_in_plane(&poses) {
-                mesh.supports = supports;
-            }
+            mesh.start = mesh.placed();
         }
         mesh
-    }
-
-    /// Refuses supports that hold a planar rod out of its plane.
-    pub(crate) fn check_supports(&self) -> Result<()> {
-        self.supports_in_plane(&self.reference_poses()).map(|_| ())
-    }
-
-    /// See [`planar::release_across`]; `None` for a rod that is not planar, or leaves its plane at a corner.
-    fn supports_in_plane(&self, (to_joints, to_tip): &(Vec<Pose>, Pose)) -> Result<Option<Supports>> {
-        if !(self.is_planar && to_joints.iter().chain([to_tip]).all(planar::keeps_to)) {
-            return Ok(None);
-        }
-        let (length, first) = (self.rod.body().length(), self.start.base);
-        let Supports { base, tip, joints } = Supports::of(self.rod);
-        let held = |s, to: &Pose, support| Held { s, pose: first * *to, support };
-        let mut all = vec![held(0.0, &Pose::identity(), base)];
-        for ((to, joint), support) in to_joints.iter().zip(self.rod.joints()).zip(joints) {
-            all.push(held(joint.s, to, support));
-        }
-        all.push(held(length, to_tip, tip));
-        planar::release_across(&mut all, length)?;
-        let mut supports = all.into_iter().map(|held| held.support);
-        let base = supports.next().unwrap_or(base);
-        let mut joints: Vec<Support> = supports.collect();
-        let tip = joints.pop().unwrap_or(tip);
-        Ok(Some(Supports { base, tip, joints }))
     }
 
     /// See [`dead`](Self::dead). A load that fails does so again, with its error, when it is asked in full.
@@ -186,31 +130,34 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
 
     /// Whether the base is clamped in the frame of its support and nothing else holds the rod.
     pub(crate) fn is_cantilever(&self) -> bool {
-        let Supports { base, tip, .. } = &self.supports;
-        base.is_clamped() && tip.is_free() && !self.has_interior_supports()
+        let base = &self.rod.base_fixture().support;
+        base.is_clamped() && self.rod.tip_fixture().support.is_free() && !self.has_interior_supports()
     }
 
     pub(crate) fn has_interior_supports(&self) -> bool {
-        self.supports.interior()
+        self.rod.joints().iter().any(|joint| !joint.fixture.support.is_free())
     }
 
     /// The reference shape, placed by the first support that holds it.
-    fn placed(&self, (to_joint, to_tip): &(Vec<Pose>, Pose)) -> Start {
-        let Supports { base, tip, joints } = &self.supports;
+    fn placed(&self) -> Start {
+        let (base, tip) = (&self.rod.base_fixture().support, &self.rod.tip_fixture().support);
+        let (to_joint, to_tip) = self.reference_poses();
         let held = |support: &Support| support.pose_at(&support.held());
-        let joints = joints.iter().zip(to_joint);
+        let joints = self.rod.joints().iter().zip(&to_joint);
         let first = if !base.is_free() {
             held(base)
         } else if !tip.is_free() {
             held(tip) * to_tip.inverse()
         } else {
-            let mut held_joints = joints.clone().filter(|(support, _)| !support.is_free());
-            held_joints.next().map_or_else(Pose::identity, |(support, to)| held(support) * to.inverse())
+            let mut held_joints = joints.clone().filter(|(joint, _)| !joint.fixture.support.is_free());
+            held_joints
+                .next()
+                .map_or_else(Pose::identity, |(joint, to)| held(&joint.fixture.support) * to.inverse())
         };
         Start {
             base: first,
-            tip: tip.coordinates(&(first * *to_tip)),
-            joints: joints.map(|(support, to)| support.coordinates(&(first * *to))).collect(),
+            tip: tip.coordinates(&(first * to_tip)),
+            joints: joints.map(|(joint, to)| joint.fixture.support.coordinates(&(first * *to))).collect(),
         }
     }
 

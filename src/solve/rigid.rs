@@ -52,6 +52,7 @@ fn free_motions<B: Elastic, const S: usize>(
     length: f64,
 ) -> DMatrix<f64> {
     let n = mesh.elements();
+    let rod = mesh.rod;
     let mut rows: Vec<Vector6<f64>> = Vec::new();
     let mut hold = |support: &Support, pose: &Pose| {
         let every = Support::clamped(*support.frame());
@@ -64,10 +65,10 @@ fn free_motions<B: Elastic, const S: usize>(
             }
         }
     };
-    hold(&mesh.supports.base, &state.node_pose[0]);
-    hold(&mesh.supports.tip, &state.node_pose[n]);
-    for (support, at) in mesh.supports.joints.iter().zip(&state.joints) {
-        hold(support, &at.pose);
+    hold(&rod.base_fixture().support, &state.node_pose[0]);
+    hold(&rod.tip_fixture().support, &state.node_pose[n]);
+    for (joint, at) in rod.joints().iter().zip(&state.joints) {
+        hold(&joint.fixture.support, &at.pose);
     }
     let gram = rows.iter().fold(Matrix6::zeros(), |sum, row| sum + row * row.transpose());
     let gram = DMatrix::from_iterator(6, 6, gram.iter().copied());

@@ -58,7 +58,7 @@ impl<const S: usize> Unknowns<S> {
             Strain::from_array(strain)
         };
         let place = |i| std::array::from_fn(|k| strain(mesh.stage_s(i, k)));
-        let is_clamped = mesh.supports.base.is_clamped();
+        let is_clamped = mesh.rod.base_fixture().support.is_clamped();
         Self {
             strains: (0..mesh.elements()).map(place).collect(),
             base: if is_clamped { at_rest.base } else { earlier.base().pose },

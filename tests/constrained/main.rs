@@ -10,11 +10,10 @@ use fixed_mesh::STATICS;
 use hyperrod::body::Constraint;
 use hyperrod::load::{DeadLoad, DeadWrench, ElasticFoundation, FollowerWrench};
 use hyperrod::material::NeoHookean;
-use hyperrod::rod::{Freedom, Support};
 use hyperrod::section::{Circle, CrossSection, Linear, Section, Stiffness};
 use hyperrod::solve::{Order, Stability};
 use hyperrod::{Body, Pose, Rod, StaticSolution, Statics, Twist, Wrench};
-use nalgebra::{Matrix3, Vector3, vector};
+use nalgebra::{Vector3, vector};
 use reference::{data, number};
 
 /// Largest difference at the nodes: positions and rotations, and wrenches relative to the largest.
@@ -178,63 +177,6 @@ fn a_load_across_the_plane_is_carried_by_reactions() {
         let expected = vector![0.24, 0.0, 0.16] + arm.cross(&vector![0.0, 0.8, 0.0]);
         assert!((moment.x - expected.x).abs() + (moment.z - expected.z).abs() < 1e-12, "{moment:?}");
     }
-}
-
-/// At a second support a planar rod is held across its plane once more than it needs: nothing tells what each takes, and nothing of that is seen in the plane.
-#[test]
-fn a_planar_rod_between_supports_is_the_rod_in_space_between_the_same() {
-    let at = |x: f64, z: f64| Pose::new(Matrix3::identity(), vector![x, 0.0, z]);
-    let bases = [
-        Support::clamped(at(0.0, 0.0)),
-        Support::pinned(at(0.0, 0.0)).holding(Freedom::RotationZ, 0.0).unwrap(),
-        // its plane is placed by what comes after it
-        Support::clamped(at(0.0, 0.0)).releasing([Freedom::Y, Freedom::RotationX, Freedom::RotationY]),
-    ];
-    let tips = [
-        Support::clamped(at(0.1, 1.02)),
-        Support::clamped(at(0.1, 1.0)).releasing([Freedom::Z]),
-        Support::pinned(at(0.1, 1.0)).releasing([Freedom::Z]),
-        Support::pinned(at(-0.05, 1.01)).holding(Freedom::RotationY, 0.2).unwrap(),
-        Support::clamped(at(0.0, 1.0))
-            .releasing([Freedom::X, Freedom::Z])
-            .with_spring(Freedom::X, 20.0)
-            .unwrap(),
-    ];
-    let roller = Support::clamped(at(0.03, 0.4)).releasing([Freedom::Z, Freedom::RotationY]);
-    for (base, tip, between) in bases
-        .iter()
-        .flat_map(|base| tips.iter().map(move |tip| (base, tip)))
-        .flat_map(|(base, tip)| [None, Some(roller)].map(|between| (base, tip, between)))
-    {
-        let solve = |constraint: Constraint| {
-            let section = Stiffness::diagonal(K).unwrap();
-            let body = Body::new(1.0, section).unwrap().with_constraint(constraint);
-            let mut rod = Rod::between(body, *base, *tip);
-            if let Some(roller) = between {
-                rod = rod.with_support(0.4, roller).unwrap();
-            }
-            let weight = Wrench::new(Vector3::zeros(), vector![1.5, 0.0, 1.0]);
-            let statics = Statics { elements: 12, order: Order::Six, ..STATICS };
-            statics.solve(&rod.with_load(DeadLoad::new(weight).unwrap())).unwrap()
-        };
-        let (free, planar) = (solve(Constraint::none()), solve(Constraint::planar()));
-        let error = difference(&planar, &free);
-        // two ends of Newton's method that stops at steps of 1e-12, with EA/EI = 1e2 or so in the wrenches
-        assert!(error < 1e-9, "{base:?}, {tip:?}, roller {}: {error:.1e}", between.is_some());
-    }
-}
-
-#[test]
-fn a_support_that_would_take_a_planar_rod_out_of_its_plane_is_refused_by_name() {
-    let body = || {
-        let section = Stiffness::diagonal(K).unwrap();
-        Body::new(1.0, section).unwrap().with_constraint(Constraint::planar())
-    };
-    let aside = Support::clamped(Pose::new(Matrix3::identity(), vector![0.0, 0.1, 1.0]));
-    let rod = Rod::between(body(), Support::clamped(Pose::identity()), aside);
-    let message = STATICS.solve(&rod).unwrap_err().to_string();
-    assert!(message.contains("distance out of its plane at which a support holds a planar rod"), "{message}");
-    assert!(message.contains("0.1"), "{message}");
 }
 
 /// Whatever its law says about strains it cannot have: here nothing that could be inverted.

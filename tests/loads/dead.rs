@@ -3,7 +3,7 @@
 use hyperrod::body::Constraint;
 use hyperrod::load::{Buoyancy, DeadLoad, DeadWrench, Gravity, Load, LoadWrench};
 use hyperrod::material::LinearElastic;
-use hyperrod::rod::{Freedom, Support};
+use hyperrod::rod::Support;
 use hyperrod::section::{Circle, Composite, Geometry, Rectangle, Section, Shape};
 use hyperrod::solve::{Order, StaticSolution, Statics};
 use hyperrod::{Body, Pose, Result, Rod, Wrench};
@@ -64,14 +64,12 @@ fn a_load_that_says_it_is_dead_gives_what_it_gives_when_asked_every_time() {
         (Constraint::planar(), 1.5),
     ];
     for (constraint, out_of_plane) in constraints {
-        for tip in [
-            Support::free(),
-            Support::pinned(Pose::new(Matrix3::identity(), vector![0.1, 0.0, 0.5])).releasing([Freedom::Z]),
-        ] {
+        for tip in [Support::free(), Support::pinned(Pose::new(Matrix3::identity(), vector![0.1, 0.0, 0.42]))]
+        {
             let solve = |silent: bool| {
                 let body = bar().with_constraint(constraint);
                 let force = DeadWrench::force(vector![0.05, 0.0, 0.0]).unwrap();
-                let rod = Rod::between(body, Support::clamped(Pose::identity()), tip);
+                let rod = Rod::between(body, Support::clamped(Pose::identity()), tip.clone());
                 let rod = rod.with_point_load(0.3, force).unwrap();
                 statics().solve(&loaded(rod, silent, out_of_plane)).unwrap()
             };

@@ -11,7 +11,6 @@ mod eliminate;
 mod magnus;
 mod motion;
 mod rows;
-mod supports;
 
 pub(super) use answer::answer;
 pub(super) use condense::condense;
@@ -19,10 +18,9 @@ pub(super) use condense::{Eliminated, columns};
 pub(super) use motion::pose_of;
 pub(crate) use motion::{kinematics, wrenches};
 pub(super) use rows::Linearised;
-pub(crate) use supports::{Held, release_across};
 
 use crate::body::Constraint;
-use crate::lie::{Pose, Twist, Wrench};
+use crate::lie::{Twist, Wrench};
 use crate::load::LoadWrench;
 
 /// Where the components in the plane, (y; z, x), are among six.
@@ -41,14 +39,6 @@ pub(crate) fn keeps(constraint: &Constraint) -> bool {
 #[inline(always)]
 pub(crate) fn contains(xi: &[Twist]) -> bool {
     xi.iter().all(|xi| xi.angular.x == 0.0 && xi.angular.z == 0.0 && xi.linear.y == 0.0)
-}
-
-/// Whether a motion keeps to it, but for rounding.
-pub(crate) fn keeps_to(motion: &Pose) -> bool {
-    const ROUNDING: f64 = 1e-12;
-    let (r, p) = (&motion.rotation, &motion.position);
-    let across = [r[(1, 0)], r[(0, 1)], r[(1, 2)], r[(2, 1)]];
-    across.iter().all(|v| v.abs() < ROUNDING) && p.y.abs() <= ROUNDING * p.norm()
 }
 
 /// Whether wrenches do.

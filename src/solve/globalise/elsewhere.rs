@@ -40,7 +40,7 @@ pub(super) fn elsewhere<B: Elastic, const S: usize>(mesh: &Mesh<'_, B, S>, numbe
             *strain += Strain { angular: bent.sum(), linear: Vector3::zeros() };
         }
     }
-    if !mesh.supports.base.is_clamped() {
+    if !mesh.rod.base_fixture().support.is_clamped() {
         unknowns.base = unknowns.base * Pose::new(so3::exp(&turn), Vector3::zeros());
     }
     unknowns

@@ -26,7 +26,7 @@ pub(crate) fn chain<B: Elastic, const S: usize>(
         let mut end = state.end_wrench[i];
         if let Some((j, joint)) = mesh.joint_at(i + 1).and_then(|j| Some((j, joints.next()?))) {
             let fixed = &mesh.rod.joints()[j];
-            let support = &mesh.supports.joints[j];
+            let support = &fixed.fixture.support;
             if support.is_free() {
                 end = fixed.corner.adjoint().apply_transpose(&(end - joint.load.wrench));
             } else {
@@ -37,7 +37,7 @@ pub(crate) fn chain<B: Elastic, const S: usize>(
         }
         links.push(Link::new(&condensed.transfer(i), &state.node_wrench[i], &end, scale));
     }
-    let (base, tip) = (&mesh.supports.base, &mesh.supports.tip);
+    let (base, tip) = (&mesh.rod.base_fixture().support, &mesh.rod.tip_fixture().support);
     let mut at_base = base_equations(mesh, state);
     // in what the support applies, −Λ_0
     at_base.from_wrench = -at_base.from_wrench;
