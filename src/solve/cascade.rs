@@ -53,6 +53,9 @@ const ROUNDING_RESIDUAL: f64 = 1e-10;
 /// The most elements of a first mesh that an earlier solution asks for: enough for a shape.
 const MOST_FIRST: usize = 64;
 
+/// What a support holds to no effect may differ by this, rad and lengths, from what fixed strains make of it.
+const HELD: f64 = 1e-6;
+
 /// How often a first mesh on which Newton's method fails is made four times finer.
 const FIRST_MESHES: u32 = 3;
 
@@ -287,12 +290,21 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         })
     }
 
+    /// Refuses supports that hold a rod with fixed strains where it cannot be.
+    fn check_redundant(&self, mesh: &Mesh<'_, B, S>, outcome: &Outcome<S>) -> Result<(), Box<Failure>> {
+        let (Some(redundant), Some(state)) = (mesh.redundant(), &outcome.state) else { return Ok(()) };
+        let tolerance = HELD.max(10.0 * self.report.error.relative(self.rod.body().length()));
+        let agreed = redundant.check(mesh, state, tolerance);
+        agreed.map_err(|error| Failure::stateless(Reason::Supports(error), self.report.clone()))
+    }
+
     fn answer(
         &mut self,
         mesh: &Mesh<'_, B, S>,
         outcome: &Outcome<S>,
         ends: Option<&[[Strain; 2]]>,
     ) -> Solved {
+        self.check_redundant(mesh, outcome)?;
         self.report.stability = self.stability_of(mesh, outcome, self.neutral_in(mesh, outcome));
         if self.report.stability.is_unstable() && !self.accept_unstable {
             return Err(unstable(mesh, outcome, self.report.stability, self));
