@@ -1,6 +1,6 @@
 //! From a coarse mesh to a fine one: every mesh starts Newton's method with the strain polynomials of the one before.
 
-use super::describe::{describe, failed};
+use super::describe::{describe, failed, strain_correction};
 use super::estimate::{Defect, Level, cuts, difference, estimate, first_elements, promised};
 use super::failure::{Failure, Reason};
 use super::globalise::unstable;
@@ -13,7 +13,8 @@ use super::solution::StaticSolution;
 use super::unknowns::Unknowns;
 use crate::body::Elastic;
 use crate::error::Error;
-use crate::lie::Strain;
+use crate::lie::{Strain, Wrench};
+use crate::material::Request;
 use crate::rod::Rod;
 
 /// Meshes a solve to an accuracy may try.
@@ -52,6 +53,9 @@ const ROUNDING_RESIDUAL: f64 = 1e-10;
 
 /// The most elements of a first mesh that an earlier solution asks for: enough for a shape.
 const MOST_FIRST: usize = 64;
+
+/// A section that strains itself by more than this is not meant to.
+const MUCH: f64 = 0.2;
 
 /// What a support holds to no effect may differ by this, rad and lengths, from what fixed strains make of it.
 const HELD: f64 = 1e-6;
@@ -117,9 +121,25 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         loop {
             match solve(self) {
                 Err(failure) if retried(&failure.reason) && self.next_try(&failure) => {}
-                solved => return solved,
+                solved => return solved.map_err(|failure| self.with_stress_at_rest(failure)),
             }
         }
+    }
+
+    /// Says of a failure that the section strains itself, where it does so by much: laws that forget their pressure are a common cause.
+    fn with_stress_at_rest(&self, mut failure: Box<Failure>) -> Box<Failure> {
+        let told = !matches!(failure.reason, Reason::Accuracy { .. }) && retried(&failure.reason)
+            || matches!(failure.reason, Reason::LimitPoint { .. });
+        let (body, rest) = (self.rod.body(), Strain::zero());
+        if told
+            && let Ok(response) = body.respond(0.0, &rest, Request::Wrench)
+            && let Some(change) = strain_correction(body, 0.0, &Wrench::zero(), &rest)
+            && let Some(strain) = change.linear.iter().copied().find(|strain| strain.abs() > MUCH)
+        {
+            let then = Box::new(failure.reason);
+            failure.reason = Reason::StressAtRest { force: response.wrench.force.norm(), strain, then };
+        }
+        failure
     }
 
     fn on_mesh_once(&mut self, coarse_elements: usize) -> Solved {
@@ -327,6 +347,7 @@ fn retried(reason: &Reason) -> bool {
         Reason::Unstable { .. }
             | Reason::Accuracy { .. }
             | Reason::IterationLimit { .. }
+            | Reason::ShortSteps { .. }
             | Reason::Singular { .. }
             | Reason::NoAdmissibleStep { .. }
     )
