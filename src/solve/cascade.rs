@@ -181,12 +181,10 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         let mut parts = cuts(&level.defect.shares, accuracy / predicted, 2 * S, FIRST_PARTS);
         let (mut best, mut stalls) = (f64::INFINITY, 0);
         for _ in 0..MAX_LEVELS {
-            let mesh = level.mesh.refined(&parts);
-            let start = level.outcome.unknowns.prolonged(&level.mesh, &parts, Some(&level.defect.ends));
             predicted *= promised(&level.defect.shares, &parts, 2 * S);
             self.newton.stop =
                 Stop::Error((NEWTON_SHARE * predicted.max(accuracy)).clamp(1e-18, MOST_NEWTON));
-            let fine = self.level(mesh, start)?;
+            let fine = self.finer(&level, &parts)?;
             self.report.error =
                 estimate(&level, &fine, &parts, length).at_least(self.rounding(fine.mesh.elements()), length);
             let estimated = self.report.error.relative(length);
@@ -249,6 +247,8 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
             Err(_) => 2, // the solve finds the same, and says so
         };
         self.buffers.recycle(state);
+        // with both ends held, those alone would tell nothing of the error between
+        let elements = elements.max(if probe.is_cantilever() { 1 } else { 2 });
         // half as fine as a shape that is known already, within reason
         let known = self.earlier.map_or(0, |earlier| earlier.nodes().len() / 2);
         let elements = elements.max(known.min(MOST_FIRST));
@@ -256,6 +256,17 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         let meshes = (0..FIRST_MESHES).map(|trial| Mesh::uniform(rod, elements * 4_usize.pow(trial)));
         let (mesh, outcome) = self.climb(meshes)?;
         Ok(Self::level_of(mesh, outcome))
+    }
+
+    /// The next mesh, from the strains of the last with what is known of their ends; from the strains alone where those go out of what is admissible.
+    fn finer(&mut self, level: &Level<'r, B, S>, parts: &[usize]) -> Result<Level<'r, B, S>, Box<Failure>> {
+        let start = |ends| level.outcome.unknowns.prolonged(&level.mesh, parts, ends);
+        match self.level(level.mesh.refined(parts), start(Some(&level.defect.ends))) {
+            Err(failure) if matches!(failure.reason, Reason::NoAdmissibleStep { iteration: 0, .. }) => {
+                self.level(level.mesh.refined(parts), start(None))
+            }
+            finer => finer,
+        }
     }
 
     fn level(
@@ -299,15 +310,13 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
 
     /// As [`solve`](Self::solve), from a coarser mesh's answer: where Newton's method leaves it, by the convex model.
     fn solve_near(&mut self, mesh: &Mesh<'r, B, S>, start: Unknowns<S>) -> Result<Outcome<S>, Box<Failure>> {
-        if !self.careful {
-            // what fails may have begun with a state that is none
-            return self.solve(mesh, start);
-        }
-        let from = start.clone();
-        self.solve(mesh, start).or_else(|failure| {
-            let found = self.descend(mesh, &from).ok_or(failure)?;
+        let from = self.careful.then(|| start.clone());
+        // what fails without care may have begun with a state that is none
+        let near = self.solve(mesh, start).or_else(|failure| {
+            let found = from.and_then(|from| self.descend(mesh, &from)).ok_or(failure)?;
             self.solve(mesh, found)
-        })
+        });
+        near.map_err(not_at_rest)
     }
 
     /// Refuses supports that hold a rod with fixed strains where it cannot be.
@@ -338,6 +347,14 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         };
         Ok(describe(mesh, &outcome.unknowns.strains, state, ends, self.report.clone()))
     }
+}
+
+/// A failure at the start of a solve that did not start at rest.
+fn not_at_rest(mut failure: Box<Failure>) -> Box<Failure> {
+    if let Reason::Start(error) = failure.reason {
+        failure.reason = Reason::NoAdmissibleStep { iteration: 0, fraction: 0.0, error };
+    }
+    failure
 }
 
 /// Whether a failure may be one of a state that would not stay, or that costs nothing to turn.
