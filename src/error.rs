@@ -101,6 +101,20 @@ pub enum Error {
         /// Its third component.
         z: f64,
     },
+    /// A support that holds something where a rod with fixed strains cannot have it.
+    #[error(
+        "the supports ask for more than the rod can do: {freedom} at s = {s} m is to be {held:.4e}, and is {found:.4e} by the strains that are fixed and the supports before it; release it there, or free a strain"
+    )]
+    OverDetermined {
+        /// Which freedom, in the frame of the support.
+        freedom: &'static str,
+        /// Arc length of the support, m.
+        s: f64,
+        /// What it is to be, rad or m.
+        held: f64,
+        /// What it is.
+        found: f64,
+    },
     /// A bounded iteration that did not reach its tolerance.
     #[error("{what} did not converge in {iterations} iterations; the last correction was {residual}")]
     NoConvergence {

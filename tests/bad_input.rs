@@ -293,3 +293,21 @@ fn a_solve_out_of_iterations_hands_back_its_last_state() {
     assert!(last.tip().pose.position.x > 0.1, "it had begun to bend");
     assert_eq!(last.nodes().len(), 5, "the coarse mesh");
 }
+
+/// A law whose pressure was forgotten: of itself its section closes up, J → 0, and every step is cut short on the way there.
+#[test]
+fn a_section_that_closes_up_of_itself_is_named_with_what_stopped_the_steps() {
+    let bare = MooneyRivlin::new(120e3, 40e3).unwrap();
+    let body = Body::new(0.3, Section::new(Circle::new(0.01), bare).unwrap()).unwrap();
+    let rod = Rod::clamped(body, Pose::identity())
+        .with_tip_load(DeadWrench::force(vector![0.5, 0.0, 0.0]).unwrap());
+    for statics in [Statics::default(), Statics::to(1e-6)] {
+        let failure = statics.solve(&rod).unwrap_err();
+        says(&failure, &["stress at rest", "ReferencePressure", "J = ", "positive"]);
+        let Reason::StressAtRest { force, strain, then } = failure.reason else { panic!("{failure}") };
+        // Ψ(0) = (2 C₁ + 4 C₂) A, of which the tangent, the same number, makes −1; to the rounding of sums of a few points
+        assert!((force / (400e3 * PI * 1e-4) - 1.0).abs() < 1e-13 && (strain + 1.0).abs() < 1e-13);
+        let Reason::ShortSteps { limit: 50, fraction, step, .. } = *then else { panic!("{then}") };
+        assert!(fraction < 1.0 && step > 0.1, "{fraction} {step}");
+    }
+}

@@ -1,3 +1,5 @@
+use crate::lie::Strain;
+
 /// The strains that a rod cannot have: they keep their reference value, Δξ_k = 0, whatever the wrench.
 ///
 /// The components of the wrench that go with them are reactions: the balance gives them, not the law, whose answer to these strains is not asked for.
@@ -76,6 +78,13 @@ impl Constraint {
     /// Which strains are fixed.
     pub const fn fixed(&self) -> [bool; 6] {
         self.fixed
+    }
+
+    /// A strain without the part that is fixed.
+    pub(crate) fn free_part(&self, strain: Strain) -> Strain {
+        let mut free = strain.to_array();
+        free.iter_mut().zip(self.fixed).filter(|(_, fixed)| *fixed).for_each(|(strain, _)| *strain = 0.0);
+        Strain::from_array(free)
     }
 
     /// Whether all strains are free.

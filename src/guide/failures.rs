@@ -7,13 +7,15 @@
 //! | reason | what it means | what to do |
 //! |---|---|---|
 //! | `Options` | the options make no sense | mend them |
-//! | `Supports` | the rod can move freely | hold the freedom it names |
+//! | `Supports` | the rod can move freely, or cannot be where it is held | hold the freedom it names, or release it |
 //! | `Start` | the rod cannot be evaluated at rest | a size or law that is not admissible, at the s it names |
 //! | `NoAdmissibleStep` | every step turns the material inside out (J ≤ 0) or leaves the law's domain | look at the place, and at half the load; another law in compression |
 //! | `Singular` | the tangent has no inverse | a limit point of the load: nothing stands beyond it; or a section without stiffness |
 //! | `Unstable` | there is an equilibrium, and it would not stay | see [below](#equilibria-that-would-not-stay) |
 //! | `LimitPoint` | on the path from rest the load cannot grow to what is asked | look at `last`, the rod at the largest load, and at its load factor |
 //! | `IterationLimit` | it did not settle | raise the limit if `step` was still falling; look at half the load |
+//! | `ShortSteps` | it did not settle: most of every step turns the material inside out, or leaves the law's domain | as for `NoAdmissibleStep` |
+//! | `StressAtRest` | one of the last five, with a section that is strained before anything acts | make the [law free of stress at rest](super::laws#free-of-stress-at-rest), or look at the tensions |
 //! | `Accuracy` | the mesh limit or rounding came first | ask for less |
 //!
 //! # A refusal that names its place

@@ -28,7 +28,9 @@
 //! # Ok(()) }
 //! ```
 //!
-//! A rod that its supports leave free is refused by name, with the direction in which it can move.
+//! A rod that its supports leave free is refused by name, with the direction in which it can move. So is one with [strains fixed](crate::body::Constraint)
+//! that is to be where it cannot be. What a support holds that the fixed strains hold already, as all that keeps a planar rod in its plane, is no load on
+//! the support: the reaction there is zero.
 //!
 //! # Between the ends
 //!

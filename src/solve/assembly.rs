@@ -70,8 +70,8 @@ pub(super) fn joint_equations<B: Elastic, const S: usize>(
     j: usize,
     joint: &JointState,
 ) -> Equations {
-    let support = &mesh.rod.joints()[j].fixture.support;
-    let target = mesh.target(support, &mesh.start.joints[j]);
+    let support = mesh.joint_support(j);
+    let target = mesh.target(&support, &mesh.start.joints[j]);
     support.linearised(&joint.pose, &joint.applied, &joint.load, &target)
 }
 
@@ -100,8 +100,8 @@ pub(super) fn tip_equations<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     state: &Configuration<S>,
 ) -> Equations {
-    let (n, support) = (mesh.elements(), &mesh.rod.tip_fixture().support);
-    let target = mesh.target(support, &mesh.start.tip);
+    let (n, support) = (mesh.elements(), mesh.tip_support());
+    let target = mesh.target(&support, &mesh.start.tip);
     support.linearised(&state.node_pose[n], &state.node_wrench[n], &state.tip_load, &target)
 }
 

@@ -1,6 +1,6 @@
 //! From a coarse mesh to a fine one: every mesh starts Newton's method with the strain polynomials of the one before.
 
-use super::describe::{describe, failed};
+use super::describe::{describe, failed, strain_correction};
 use super::estimate::{Defect, Level, cuts, difference, estimate, first_elements, promised};
 use super::failure::{Failure, Reason};
 use super::globalise::unstable;
@@ -13,7 +13,8 @@ use super::solution::StaticSolution;
 use super::unknowns::Unknowns;
 use crate::body::Elastic;
 use crate::error::Error;
-use crate::lie::Strain;
+use crate::lie::{Strain, Wrench};
+use crate::material::Request;
 use crate::rod::Rod;
 
 /// Meshes a solve to an accuracy may try.
@@ -52,6 +53,12 @@ const ROUNDING_RESIDUAL: f64 = 1e-10;
 
 /// The most elements of a first mesh that an earlier solution asks for: enough for a shape.
 const MOST_FIRST: usize = 64;
+
+/// A section that strains itself by more than this is not meant to.
+const MUCH: f64 = 0.2;
+
+/// What a support holds to no effect may differ by this, rad and lengths, from what fixed strains make of it.
+const HELD: f64 = 1e-6;
 
 /// How often a first mesh on which Newton's method fails is made four times finer.
 const FIRST_MESHES: u32 = 3;
@@ -114,9 +121,25 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         loop {
             match solve(self) {
                 Err(failure) if retried(&failure.reason) && self.next_try(&failure) => {}
-                solved => return solved,
+                solved => return solved.map_err(|failure| self.with_stress_at_rest(failure)),
             }
         }
+    }
+
+    /// Says of a failure that the section strains itself, where it does so by much: laws that forget their pressure are a common cause.
+    fn with_stress_at_rest(&self, mut failure: Box<Failure>) -> Box<Failure> {
+        let told = !matches!(failure.reason, Reason::Accuracy { .. }) && retried(&failure.reason)
+            || matches!(failure.reason, Reason::LimitPoint { .. });
+        let (body, rest) = (self.rod.body(), Strain::zero());
+        if told
+            && let Ok(response) = body.respond(0.0, &rest, Request::Wrench)
+            && let Some(change) = strain_correction(body, 0.0, &Wrench::zero(), &rest)
+            && let Some(strain) = change.linear.iter().copied().find(|strain| strain.abs() > MUCH)
+        {
+            let then = Box::new(failure.reason);
+            failure.reason = Reason::StressAtRest { force: response.wrench.force.norm(), strain, then };
+        }
+        failure
     }
 
     fn on_mesh_once(&mut self, coarse_elements: usize) -> Solved {
@@ -158,12 +181,10 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         let mut parts = cuts(&level.defect.shares, accuracy / predicted, 2 * S, FIRST_PARTS);
         let (mut best, mut stalls) = (f64::INFINITY, 0);
         for _ in 0..MAX_LEVELS {
-            let mesh = level.mesh.refined(&parts);
-            let start = level.outcome.unknowns.prolonged(&level.mesh, &parts, Some(&level.defect.ends));
             predicted *= promised(&level.defect.shares, &parts, 2 * S);
             self.newton.stop =
                 Stop::Error((NEWTON_SHARE * predicted.max(accuracy)).clamp(1e-18, MOST_NEWTON));
-            let fine = self.level(mesh, start)?;
+            let fine = self.finer(&level, &parts)?;
             self.report.error =
                 estimate(&level, &fine, &parts, length).at_least(self.rounding(fine.mesh.elements()), length);
             let estimated = self.report.error.relative(length);
@@ -226,6 +247,8 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
             Err(_) => 2, // the solve finds the same, and says so
         };
         self.buffers.recycle(state);
+        // with both ends held, those alone would tell nothing of the error between
+        let elements = elements.max(if probe.is_cantilever() { 1 } else { 2 });
         // half as fine as a shape that is known already, within reason
         let known = self.earlier.map_or(0, |earlier| earlier.nodes().len() / 2);
         let elements = elements.max(known.min(MOST_FIRST));
@@ -233,6 +256,17 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         let meshes = (0..FIRST_MESHES).map(|trial| Mesh::uniform(rod, elements * 4_usize.pow(trial)));
         let (mesh, outcome) = self.climb(meshes)?;
         Ok(Self::level_of(mesh, outcome))
+    }
+
+    /// The next mesh, from the strains of the last with what is known of their ends; from the strains alone where those go out of what is admissible.
+    fn finer(&mut self, level: &Level<'r, B, S>, parts: &[usize]) -> Result<Level<'r, B, S>, Box<Failure>> {
+        let start = |ends| level.outcome.unknowns.prolonged(&level.mesh, parts, ends);
+        match self.level(level.mesh.refined(parts), start(Some(&level.defect.ends))) {
+            Err(failure) if matches!(failure.reason, Reason::NoAdmissibleStep { iteration: 0, .. }) => {
+                self.level(level.mesh.refined(parts), start(None))
+            }
+            finer => finer,
+        }
     }
 
     fn level(
@@ -276,15 +310,21 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
 
     /// As [`solve`](Self::solve), from a coarser mesh's answer: where Newton's method leaves it, by the convex model.
     fn solve_near(&mut self, mesh: &Mesh<'r, B, S>, start: Unknowns<S>) -> Result<Outcome<S>, Box<Failure>> {
-        if !self.careful {
-            // what fails may have begun with a state that is none
-            return self.solve(mesh, start);
-        }
-        let from = start.clone();
-        self.solve(mesh, start).or_else(|failure| {
-            let found = self.descend(mesh, &from).ok_or(failure)?;
+        let from = self.careful.then(|| start.clone());
+        // what fails without care may have begun with a state that is none
+        let near = self.solve(mesh, start).or_else(|failure| {
+            let found = from.and_then(|from| self.descend(mesh, &from)).ok_or(failure)?;
             self.solve(mesh, found)
-        })
+        });
+        near.map_err(not_at_rest)
+    }
+
+    /// Refuses supports that hold a rod with fixed strains where it cannot be.
+    fn check_redundant(&self, mesh: &Mesh<'_, B, S>, outcome: &Outcome<S>) -> Result<(), Box<Failure>> {
+        let (Some(redundant), Some(state)) = (mesh.redundant(), &outcome.state) else { return Ok(()) };
+        let tolerance = HELD.max(10.0 * self.report.error.relative(self.rod.body().length()));
+        let agreed = redundant.check(mesh, state, tolerance);
+        agreed.map_err(|error| Failure::stateless(Reason::Supports(error), self.report.clone()))
     }
 
     fn answer(
@@ -293,6 +333,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         outcome: &Outcome<S>,
         ends: Option<&[[Strain; 2]]>,
     ) -> Solved {
+        self.check_redundant(mesh, outcome)?;
         self.report.stability = self.stability_of(mesh, outcome, self.neutral_in(mesh, outcome));
         if self.report.stability.is_unstable() && !self.accept_unstable {
             return Err(unstable(mesh, outcome, self.report.stability, self));
@@ -308,6 +349,14 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
     }
 }
 
+/// A failure at the start of a solve that did not start at rest.
+fn not_at_rest(mut failure: Box<Failure>) -> Box<Failure> {
+    if let Reason::Start(error) = failure.reason {
+        failure.reason = Reason::NoAdmissibleStep { iteration: 0, fraction: 0.0, error };
+    }
+    failure
+}
+
 /// Whether a failure may be one of a state that would not stay, or that costs nothing to turn.
 fn retried(reason: &Reason) -> bool {
     matches!(
@@ -315,6 +364,7 @@ fn retried(reason: &Reason) -> bool {
         Reason::Unstable { .. }
             | Reason::Accuracy { .. }
             | Reason::IterationLimit { .. }
+            | Reason::ShortSteps { .. }
             | Reason::Singular { .. }
             | Reason::NoAdmissibleStep { .. }
     )

@@ -76,6 +76,32 @@ pub enum Reason {
         /// The largest load factor on the path. The last state of the failure is the equilibrium there.
         load_factor: f64,
     },
+    /// The iteration limit was reached with steps that lead out of what is admissible.
+    #[error(
+        "no convergence in {limit} iterations: only {fraction:.1e} of the last step, {step:.1e}, could be taken; more of it fails ({error})"
+    )]
+    ShortSteps {
+        /// The limit.
+        limit: usize,
+        /// The part of the last step that was taken.
+        fraction: f64,
+        /// The whole step.
+        step: f64,
+        /// What was wrong with a state that more of the step leads to.
+        error: Error,
+    },
+    /// No answer, and a section that is far from free of stress at rest.
+    #[error(
+        "the section has stress at rest: before anything acts, a force of {force:.3e} N strains it by {strain:.2}, from its law or its actuators; `material::ReferencePressure` or `StressFree` takes it off a law; {then}"
+    )]
+    StressAtRest {
+        /// Size of the force that the section has at s = 0 at its reference strain, N.
+        force: f64,
+        /// The stretch or shear that its tangent there makes of it.
+        strain: f64,
+        /// How the solve ended.
+        then: Box<Reason>,
+    },
     /// The iteration limit was reached.
     #[error(
         "no convergence in {limit} iterations: last step {step:.3e}, asked {tolerance:.1e}, nor by way of smaller loads; raise the limit, or trace the path to see how far the load can grow"

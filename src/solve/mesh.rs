@@ -1,7 +1,10 @@
 //! Where the elements of a rod lie, and what is known about it there before anything is solved.
 
+use std::sync::Arc;
+
 use nalgebra::Vector3;
 
+use super::redundant::Redundant;
 use super::unknowns::StageStrains;
 use crate::body::Elastic;
 use crate::lie::{Pose, Strain, Twist};
@@ -29,6 +32,8 @@ pub(crate) struct Mesh<'a, B, const S: usize> {
     pub(crate) dead: Vec<[Vector3<f64>; S]>,
     /// Where a solve starts.
     pub(crate) start: Start,
+    /// What supports need not hold.
+    redundant: Option<Arc<Redundant>>,
     /// The loads are multiplied by this, and the supports have come this part of the way from the start to what they hold.
     pub(crate) load_factor: f64,
 }
@@ -66,7 +71,11 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
             nodes.push(to);
             from = to;
         }
-        Self::at(rod, nodes, Collocation::gauss())
+        let mut mesh = Self::at(rod, nodes, Collocation::gauss());
+        if !mesh.is_cantilever() {
+            mesh.redundant = Redundant::of(rod, &mesh.start.base).map(Arc::new);
+        }
+        mesh
     }
 
     /// With these nodes, from 0 to L, the joints and breakpoints among them.
@@ -85,6 +94,7 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
             is_planar: false,
             dead: Vec::new(),
             start,
+            redundant: None,
             load_factor: 1.0,
         };
         mesh.places = (0..mesh.elements()).map(|i| std::array::from_fn(|k| mesh.stage_s(i, k))).collect();
@@ -125,7 +135,8 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
             }
             nodes.push(self.nodes[i + 1]);
         }
-        Self { load_factor: self.load_factor, ..Self::at(self.rod, nodes, self.table.clone()) }
+        let (load_factor, redundant) = (self.load_factor, self.redundant.clone());
+        Self { load_factor, redundant, ..Self::at(self.rod, nodes, self.table.clone()) }
     }
 
     /// Whether the base is clamped in the frame of its support and nothing else holds the rod.
@@ -191,6 +202,23 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
             return held;
         }
         std::array::from_fn(|j| start[j] + self.load_factor * (held[j] - start[j]))
+    }
+
+    /// What supports need not hold.
+    pub(crate) fn redundant(&self) -> Option<&Redundant> {
+        self.redundant.as_deref()
+    }
+
+    /// The support of the tip, as far as it holds something that fixed strains do not.
+    pub(crate) fn tip_support(&self) -> Support {
+        let support = &self.rod.tip_fixture().support;
+        self.redundant.as_ref().map_or(*support, |redundant| redundant.at_tip(support))
+    }
+
+    /// The same of a joint.
+    pub(crate) fn joint_support(&self, j: usize) -> Support {
+        let support = &self.rod.joints()[j].fixture.support;
+        self.redundant.as_ref().map_or(*support, |redundant| redundant.at_joint(j, support))
     }
 
     pub(crate) fn elements(&self) -> usize {

@@ -86,6 +86,8 @@ pub(crate) struct Outcome<const S: usize> {
     pub(crate) least_stiffness: f64,
     /// Size of that step.
     pub(crate) last_step: f64,
+    /// What was wrong with a state that more of that step leads to.
+    rejected: Option<Error>,
 }
 
 impl<const S: usize> Outcome<S> {
@@ -98,6 +100,7 @@ impl<const S: usize> Outcome<S> {
             failure: None,
             least_stiffness: 0.0,
             last_step: f64::INFINITY,
+            rejected: None,
         }
     }
 
@@ -146,12 +149,20 @@ impl Newton<'_> {
             previous = if full { size } else { f64::INFINITY };
         }
         if out.failure.is_none() {
-            let step = history.last().map_or(f64::NAN, |i| i.step);
-            let (limit, tolerance) = (self.max_iterations, self.stop.step());
-            out.failure = Some(Reason::IterationLimit { limit, step, tolerance });
+            out.failure = Some(self.limit_reached(&mut out, history));
         }
         out.state = Some(state);
         out
+    }
+
+    /// Why there was no convergence: what the last step says of it.
+    fn limit_reached<const S: usize>(&self, out: &mut Outcome<S>, history: &[Iteration]) -> Reason {
+        let (limit, last) = (self.max_iterations, history.last());
+        if let (Some(last), Some(error)) = (last, out.rejected.take()) {
+            return Reason::ShortSteps { limit, fraction: last.fraction, step: out.last_step, error };
+        }
+        let step = last.map_or(f64::NAN, |last| last.step);
+        Reason::IterationLimit { limit, step, tolerance: self.stop.step() }
     }
 
     /// Moves `out` and `state` by the longest admissible part of a Newton step, and returns that part.
@@ -169,12 +180,12 @@ impl Newton<'_> {
             .newton_step(mesh, &out.unknowns, state, &scale)
             .map_err(|error| Reason::Singular { iteration, error })?;
         let cap = if step.rotation > ROTATION_CAP { ROTATION_CAP / step.rotation } else { 1.0 };
-        let fraction = admissible(mesh, &out.unknowns, buffers, cap, trial)
+        let (fraction, rejected) = admissible(mesh, &out.unknowns, buffers, cap, trial)
             .map_err(|(fraction, error)| Reason::NoAdmissibleStep { iteration, fraction, error })?;
         std::mem::swap(&mut out.unknowns, &mut buffers.trial);
         std::mem::swap(state, trial);
         out.iterations += 1;
-        (out.least_stiffness, out.last_step) = (buffers.least_stiffness, step.size);
+        (out.least_stiffness, out.last_step, out.rejected) = (buffers.least_stiffness, step.size, rejected);
         self.record(mesh.elements(), out.residual, &step, fraction, history);
         if step.size > ROUNDING_STEP {
             self.amplification = self.amplification.max(step.size / out.residual.max(f64::MIN_POSITIVE));
@@ -218,22 +229,23 @@ pub(crate) fn relative_residual<const S: usize>(state: &Configuration<S>, scale:
     if wrench > 0.0 { residual / wrench } else { residual }
 }
 
-/// The longest of cap, cap/2, cap/4, … that leads to an admissible state; that state is in `trial`, its unknowns in `buffers.trial`.
+/// The longest of cap, cap/2, cap/4, … that leads to an admissible state, and what was wrong with the one before; that state is in `trial`, its unknowns
+/// in `buffers.trial`.
 fn admissible<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     unknowns: &Unknowns<S>,
     buffers: &mut Buffers<S>,
     cap: f64,
     trial: &mut Configuration<S>,
-) -> Result<f64, (f64, Error)> {
-    let mut fraction = cap;
+) -> Result<(f64, Option<Error>), (f64, Error)> {
+    let (mut fraction, mut rejected) = (cap, None);
     for halving in 0..=HALVINGS {
         buffers.move_by(unknowns, fraction);
         match mesh.configure(&buffers.trial, trial) {
-            Ok(()) => return Ok(fraction),
+            Ok(()) => break,
             Err(error) if halving == HALVINGS => return Err((fraction, error)),
-            Err(_) => fraction *= 0.5,
+            Err(error) => (fraction, rejected) = (0.5 * fraction, Some(error)),
         }
     }
-    Ok(fraction)
+    Ok((fraction, rejected))
 }

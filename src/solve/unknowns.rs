@@ -51,12 +51,8 @@ impl<const S: usize> Unknowns<S> {
     /// step, are left to Newton's method.
     pub(crate) fn of_earlier<B: Elastic>(mesh: &Mesh<'_, B, S>, earlier: &StaticSolution) -> Self {
         let at_rest = Self::at_rest(mesh);
-        let fixed = mesh.rod.body().constraint().fixed();
-        let strain = |s| {
-            let mut strain = earlier.strain_near(s).to_array();
-            strain.iter_mut().zip(fixed).filter(|(_, fixed)| *fixed).for_each(|(strain, _)| *strain = 0.0);
-            Strain::from_array(strain)
-        };
+        let constraint = mesh.rod.body().constraint();
+        let strain = |s| constraint.free_part(earlier.strain_near(s));
         let place = |i| std::array::from_fn(|k| strain(mesh.stage_s(i, k)));
         let is_clamped = mesh.rod.base_fixture().support.is_clamped();
         Self {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix6, Vector6};
 
-use super::verdict::{is_conservative, softening};
+use super::verdict::{is_conservative, of_free, softening};
 use crate::body::Elastic;
 use crate::lie::Strain;
 use crate::solve::equilibrium::Configuration;
@@ -97,13 +97,14 @@ fn convex_step<B: Elastic, const S: usize>(
 ) -> Option<Step> {
     let scale = scale(mesh, state);
     let soft = softening(mesh, state).is_some();
-    let mut model = state.clone();
+    let (mut model, constraint) = (state.clone(), mesh.rod.body().constraint());
     while *models > 0 {
         *models -= 1;
         // the model in units of its own stiffness
         let units = Scale { force: scale.force * (1.0 + *mu), ..scale };
         for (modelled, response) in model.response.iter_mut().flatten().zip(state.response.iter().flatten()) {
-            let stiff = if soft { convex(&response.tangent) } else { response.tangent };
+            let free = of_free(&response.tangent, &constraint);
+            let stiff = if soft { convex(&free) } else { response.tangent };
             modelled.tangent = response.tangent + stiff * *mu;
         }
         // a base that may move is held back as well: supports alone need not keep the rod from swinging
@@ -141,12 +142,12 @@ fn convex(tangent: &Matrix6<f64>) -> Matrix6<f64> {
     Matrix6::from_fn(|r, c| positive[(r, c)] / (scale[r] * scale[c]))
 }
 
-/// The same state with its curvatures changed a little, in a way that no symmetry of a rod has.
+/// The same state with its curvatures, but for those that are fixed, changed a little, in a way that no symmetry of a rod has.
 pub(super) fn turned_aside<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     from: &Unknowns<S>,
 ) -> Unknowns<S> {
-    let length = mesh.rod.body().length();
+    let (length, constraint) = (mesh.rod.body().length(), mesh.rod.body().constraint());
     let mut unknowns = from.clone();
     for (i, element) in unknowns.strains.iter_mut().enumerate() {
         for (k, strain) in element.iter_mut().enumerate() {
@@ -154,7 +155,7 @@ pub(super) fn turned_aside<B: Elastic, const S: usize>(
             let bend = ASIDE / length;
             let aside =
                 [bend * (5.3 * phase + 0.3).cos(), bend * (7.2 * phase + 0.5).sin(), 0.0, 0.0, 0.0, 0.0];
-            *strain += Strain::from_array(aside);
+            *strain += constraint.free_part(Strain::from_array(aside));
         }
     }
     unknowns

@@ -22,9 +22,9 @@ fn between_minus_one_and_one(state: &mut u64) -> f64 {
     ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }
 
-/// The reference shape bent and twisted by some radians, and turned about its base where that may turn: one shape for every number.
+/// The reference shape bent and twisted by some radians, as far as it can be, and turned about its base where that may turn: one shape for every number.
 pub(super) fn elsewhere<B: Elastic, const S: usize>(mesh: &Mesh<'_, B, S>, number: u64) -> Unknowns<S> {
-    let length = mesh.rod.body().length();
+    let (length, constraint) = (mesh.rod.body().length(), mesh.rod.body().constraint());
     let mut state = number;
     let mut vector = |size: f64| {
         let mut component = || size * between_minus_one_and_one(&mut state);
@@ -37,7 +37,7 @@ pub(super) fn elsewhere<B: Elastic, const S: usize>(mesh: &Mesh<'_, B, S>, numbe
         for (k, strain) in element.iter_mut().enumerate() {
             let phase = std::f64::consts::PI * mesh.stage_s(i, k) / length;
             let bent = waves.iter().enumerate().map(|(m, wave)| wave * (m as f64 * phase).cos());
-            *strain += Strain { angular: bent.sum(), linear: Vector3::zeros() };
+            *strain += constraint.free_part(Strain { angular: bent.sum(), linear: Vector3::zeros() });
         }
     }
     if !mesh.rod.base_fixture().support.is_clamped() {

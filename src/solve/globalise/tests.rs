@@ -2,11 +2,13 @@
 
 use nalgebra::{Matrix3, vector};
 
+use crate::body::Constraint;
 use crate::lie::{Strain, Wrench};
 use crate::rod::Support;
 use crate::section::Stiffness;
 use crate::solve::equilibrium::Configuration;
 use crate::solve::globalise::descend::{descend, turned_aside};
+use crate::solve::globalise::elsewhere::elsewhere;
 use crate::solve::linear::Buffers;
 use crate::solve::mesh::Mesh;
 use crate::solve::newton::scale;
@@ -76,5 +78,23 @@ fn a_rod_bent_a_little_at_rest_is_found_buckled_from_any_start() {
             .solve(&rod)
             .unwrap_or_else(|e| panic!("{imperfection}: {e} {:?}", e.report.rungs));
         assert!(!solution.report().stability.is_unstable());
+    }
+}
+
+#[test]
+fn no_start_has_a_strain_that_is_fixed() {
+    for mask in 0..64 {
+        let fixed: [bool; 6] = std::array::from_fn(|j| mask & (1 << j) != 0);
+        let section = Stiffness::diagonal([1.0, 1.5, 1.0, 1e5, 1e5, 3e5]).unwrap();
+        let body = Body::new(1.0, section).unwrap().with_constraint(Constraint::fixing(fixed));
+        let rod = Rod::clamped(body, Pose::identity());
+        let mesh = Mesh::<_, 3>::uniform(&rod, 4);
+        for start in [elsewhere(&mesh, 1), turned_aside(&mesh, &Unknowns::at_rest(&mesh))] {
+            let bent =
+                start.strains.iter().flatten().flat_map(|strain| strain.to_array().into_iter().zip(fixed));
+            assert!(bent.clone().all(|(strain, fixed)| !fixed || strain == 0.0), "{fixed:?}");
+            // and what can be bent, is
+            assert!(fixed[0] || bent.clone().any(|(strain, _)| strain != 0.0), "{fixed:?}");
+        }
     }
 }

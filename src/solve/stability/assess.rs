@@ -26,18 +26,17 @@ pub(crate) fn chain<B: Elastic, const S: usize>(
         let mut end = state.end_wrench[i];
         if let Some((j, joint)) = mesh.joint_at(i + 1).and_then(|j| Some((j, joints.next()?))) {
             let fixed = &mesh.rod.joints()[j];
-            let support = &fixed.fixture.support;
-            if support.is_free() {
+            if fixed.fixture.support.is_free() {
                 end = fixed.corner.adjoint().apply_transpose(&(end - joint.load.wrench));
             } else {
                 let equations = joint_equations(mesh, j, joint);
-                let condition = Condition::of(support, &equations, &joint.applied, scale)?;
+                let condition = Condition::of(&mesh.joint_support(j), &equations, &joint.applied, scale)?;
                 stops.push(Stop { node: i + 1, condition, corner: Link::corner(&fixed.corner, scale) });
             }
         }
         links.push(Link::new(&condensed.transfer(i), &state.node_wrench[i], &end, scale));
     }
-    let (base, tip) = (&mesh.rod.base_fixture().support, &mesh.rod.tip_fixture().support);
+    let (base, tip) = (&mesh.rod.base_fixture().support, &mesh.tip_support());
     let mut at_base = base_equations(mesh, state);
     // in what the support applies, −Λ_0
     at_base.from_wrench = -at_base.from_wrench;
