@@ -64,6 +64,9 @@ impl Constraint {
 
     /// Stays in the plane of its directors x and z, and bends about y. The reference must lie in that plane for the rod to do so.
     ///
+    /// What places the plane is the first support, or the first few, along the rod: those after it take nothing across it, since nothing would tell how much.
+    /// Between two [`pinned`](crate::rod::Support::pinned) ends the plane itself can turn: one of them must hold [`RotationZ`](crate::rod::Freedom::RotationZ).
+    ///
     /// Where the loads lie in it too, a solve has three components where one in space has six. Its [stability](crate::solve::Stability) is that in the
     /// plane: whether it would rather leave it is not asked of a rod that cannot.
     pub const fn planar() -> Self {

@@ -206,6 +206,12 @@ impl Support {
         self.conditions.map(|c| if let Condition::Fixed(value) = c { value } else { 0.0 })
     }
 
+    /// Where it holds the axis of the rod; `None` where that can move.
+    pub(crate) fn place_held(&self) -> Option<Vector3<f64>> {
+        let held = self.conditions[3..].iter().all(|c| matches!(c, Condition::Fixed(_)));
+        held.then(|| self.pose_at(&self.held()).position)
+    }
+
     /// Potential energy of the springs, J.
     pub(crate) fn potential(&self, pose: &Pose) -> f64 {
         let chi = self.coordinates(pose);

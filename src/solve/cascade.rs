@@ -10,6 +10,7 @@ use super::newton::{Newton, Outcome, Stop};
 use super::report::Report;
 use super::rigid;
 use super::solution::StaticSolution;
+use super::taut;
 use super::unknowns::Unknowns;
 use crate::body::Elastic;
 use crate::error::Error;
@@ -231,7 +232,7 @@ impl<'r, 'o, B: Elastic, const S: usize> Cascade<'r, 'o, B, S> {
         let mut state = self.buffers.configuration();
         // what cannot be evaluated is found again, and named, by the solve
         let held = match probe.configure(&Unknowns::at_rest(&probe), &mut state) {
-            Ok(()) => rigid::check(&probe, &state),
+            Ok(()) => taut::check(&probe).and_then(|()| rigid::check(&probe, &state)),
             Err(_) => Ok(()),
         };
         self.buffers.recycle(state);

@@ -28,6 +28,7 @@ mod solution;
 mod stability;
 mod statics;
 mod sweep;
+mod taut;
 mod tendon_length;
 mod unknowns;
 mod workspace;

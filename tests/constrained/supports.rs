@@ -93,6 +93,33 @@ fn a_strut_buckles_within_its_constraint() {
     }
 }
 
+/// Between clamps at its own length or farther apart it has no shape, or a single one with any tension.
+#[test]
+fn supports_farther_apart_than_a_rod_that_cannot_stretch_is_long_are_refused_by_name() {
+    let solve = |constraint: Constraint, far: f64, roller: bool| {
+        let clamp = Support::clamped(at(0.0, 0.0, 0.0));
+        let mut rod = Rod::between(body(constraint), clamp, Support::clamped(at(0.0, far, 0.0)));
+        if roller {
+            rod = rod.with_support(0.5, Support::pinned(at(0.0, 0.51, 0.0))).unwrap();
+        }
+        STATICS.solve(&rod).map_err(|failure| failure.to_string())
+    };
+    let kirchhoff = Constraint::kirchhoff();
+    for (constraint, far, roller) in
+        [(kirchhoff, 1.1, false), (kirchhoff, 1.0, false), (kirchhoff.and(Constraint::planar()), 0.95, true)]
+    {
+        let message = solve(constraint, far, roller).unwrap_err();
+        assert!(
+            message.contains("distance between two supports of a rod that can neither stretch"),
+            "{message}"
+        );
+    }
+    // one that shears grows longer
+    assert!(solve(Constraint::inextensible(), 1.01, false).is_ok());
+    assert!(solve(Constraint::unshearable(), 1.01, false).is_ok());
+    assert!(solve(kirchhoff, 0.99, false).is_ok());
+}
+
 /// What a rod without some strains cannot do is refused by the freedom and its place, and what it can do but barely is not.
 #[test]
 fn supports_that_ask_for_more_than_a_rod_can_do_are_refused_by_name() {

@@ -12,6 +12,7 @@ use crate::rod::Support;
 use crate::rod::joint::{Fixture, Joint};
 use crate::rod::support::Condition;
 use crate::section::CrossSection;
+use crate::solve::redundant::Redundant;
 
 /// Where on the rod.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,12 +81,24 @@ impl<B: Movable> Scene<'_, B> {
         }
     }
 
-    /// What holds the rod there, with its frame as the rod has it.
+    /// What holds the rod there, with its frame as the rod has it, as far as it holds something that fixed strains do not.
     pub(super) fn support(&self, place: Place) -> Support {
         if place == Place::Base && self.let_go {
             return Support::free();
         }
-        self.fixture(place).map_or_else(Support::free, |fixture| fixture.support)
+        let Some(support) = self.fixture(place).map(|fixture| fixture.support) else {
+            return Support::free();
+        };
+        let base = self.rod.base_support();
+        let redundant = Redundant::of(self.rod, &base.pose_at(&base.held())).filter(|_| !self.let_go);
+        let joint = |s: f64| self.rod.joints().iter().position(|joint| joint.s == s);
+        match (redundant, place) {
+            (Some(redundant), Place::Tip) => redundant.at_tip(&support),
+            (Some(redundant), Place::Between(s)) => {
+                joint(s).map_or(support, |j| redundant.at_joint(j, &support))
+            }
+            _ => support,
+        }
     }
 
     pub(super) fn corner(&self, place: Place) -> Option<Pose> {
