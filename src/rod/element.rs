@@ -101,6 +101,35 @@ impl<D: Scalar, const S: usize> Kinematics<D, S> {
     }
 }
 
+impl<const S: usize> Kinematics<f64, S> {
+    /// Λ_i of an element whose loads are dead forces, in the frame of the first node; the Λ_k go into `stage`.
+    #[inline(always)]
+    pub(crate) fn wrenches_of_dead(
+        &self,
+        table: &Collocation<S>,
+        wrench_at_end: &Wrench,
+        forces: &[Vector3<f64>; S],
+        h: f64,
+        stage: &mut [Wrench; S],
+    ) -> Wrench {
+        // Λ_i, and all Λ_k before they are carried, are sums of F_l = (p_l × f_l, f_l)
+        let mut at_start = brought_back(&self.end, wrench_at_end);
+        for l in 0..S {
+            let force = forces[l] * (h * table.b[l]);
+            at_start += Wrench::new(self.stage[l].position.cross(&force), force);
+        }
+        for (k, (wrench, pose)) in stage.iter_mut().zip(&self.stage).enumerate() {
+            let mut sum = at_start;
+            for l in 0..S {
+                let force = forces[l] * (h * table.a[k][l]);
+                sum -= Wrench::new(self.stage[l].position.cross(&force), force);
+            }
+            *wrench = carried(pose, &sum);
+        }
+        at_start
+    }
+}
+
 /// Ad_gᵀ Λ = (Rᵀ(m − p × n), Rᵀ n).
 #[inline(always)]
 fn carried<D: Scalar>(pose: &Pose<D>, wrench: &Wrench<D>) -> Wrench<D> {

@@ -158,6 +158,7 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
                 StageLoads::Dead(forces) if plane => {
                     planar::wrenches(&self.table, motion, &before, Some((h, forces)), stage)
                 }
+                StageLoads::Dead(forces) => motion.wrenches_of_dead(&self.table, &before, forces, h, stage),
                 _ => match loads.at_node(motion) {
                     None => motion.wrenches_without_load(&before, stage),
                     Some(loads) => {

@@ -246,9 +246,10 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
     /// ξ = ξ* + Δξ at the stages of element i.
     #[inline(always)]
     pub(crate) fn twists(&self, i: usize, strains: &[Strain; S]) -> [Twist; S] {
-        let mut twists = self.reference[i];
-        for (twist, strain) in twists.iter_mut().zip(strains) {
-            *twist = *twist + *strain;
+        // one by one: more at a time would be a call that copies
+        let mut twists = [Twist::zero(); S];
+        for (twist, (reference, strain)) in twists.iter_mut().zip(self.reference[i].iter().zip(strains)) {
+            *twist = *reference + *strain;
         }
         twists
     }
