@@ -1,10 +1,15 @@
-use super::differentiate::{Fibre, FibreResponse, Level, isotropic_response, local_response};
+use super::active::Active;
+use super::differentiate::{
+    Fibre, FibreResponse, Level, TwoWays, isotropic_response, isotropic_two_ways, local_response,
+    local_two_ways,
+};
 use super::gradient::{GradientResponse, GradientSite, isotropic_gradient_response, local_gradient_response};
 use super::integrate::Site;
 use super::kinematics::{Deformation, Invariants, Point};
 use super::response::{Points, Request, Response, Station};
 use super::stress_free::WithoutPressure;
-use super::task::Task;
+use super::task::{Many, Task};
+use super::three::Three;
 use crate::error::Result;
 use crate::lie::Strain;
 use crate::scalar::{Jet, Lane, Scalar};
@@ -42,6 +47,12 @@ pub trait Isotropic: Send + Sync {
 
     /// Whether the energy density is the same at every s, that is, ignores `at.s`. A uniform quadratic one is integrated once and for all.
     fn is_uniform(&self) -> bool {
+        false
+    }
+
+    /// Whether the energy density is the same everywhere in a section, that is, ignores `at.x` and `at.y`. Bending in a plane then takes as many points as
+    /// there are different places across it: half of them or fewer.
+    fn is_homogeneous(&self) -> bool {
         false
     }
 
@@ -125,6 +136,12 @@ pub trait Local: Send + Sync {
         false
     }
 
+    /// Whether the energy density is the same everywhere in a section, that is, ignores `at.x` and `at.y`. Bending in a plane then takes as many points as
+    /// there are different places across it: half of them or fewer.
+    fn is_homogeneous(&self) -> bool {
+        false
+    }
+
     /// Where the law is defined, in words for an error message.
     fn domain(&self) -> &'static str {
         "where the energy density is finite"
@@ -135,6 +152,13 @@ pub trait Local: Send + Sync {
     #[inline(always)]
     fn respond<L: Lane, O: Level>(&self, fibre: &Fibre<L>) -> FibreResponse<L> {
         local_response::<Self, L, O>(self, fibre)
+    }
+
+    /// The derivatives in three strains, by two variables. The library's business, overridden by the isotropic level.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn respond_in_two_ways<L: Lane, T: Three>(&self, fibre: &Fibre<L>) -> TwoWays<L> {
+        local_two_ways::<Self, L, T>(self, fibre)
     }
 
     /// The sums over a section. The library's business, overridden by the isotropic level.
@@ -169,6 +193,10 @@ impl<M: Isotropic> Local for M {
         Isotropic::is_uniform(self)
     }
 
+    fn is_homogeneous(&self) -> bool {
+        Isotropic::is_homogeneous(self)
+    }
+
     fn domain(&self) -> &'static str {
         Isotropic::domain(self)
     }
@@ -176,6 +204,11 @@ impl<M: Isotropic> Local for M {
     #[inline(always)]
     fn respond<L: Lane, O: Level>(&self, fibre: &Fibre<L>) -> FibreResponse<L> {
         isotropic_response::<Self, L, O>(self, fibre)
+    }
+
+    #[inline(always)]
+    fn respond_in_two_ways<L: Lane, T: Three>(&self, fibre: &Fibre<L>) -> TwoWays<L> {
+        isotropic_two_ways::<Self, L, T>(self, fibre)
     }
 
     fn perform(&self, task: &mut Task<'_>) -> Result<Response> {
@@ -237,6 +270,12 @@ pub trait Sectional: Send + Sync {
         false
     }
 
+    /// Whether the energy is one of the deformation at the point that ignores where in the section that is. The library's business.
+    #[doc(hidden)]
+    fn is_homogeneous(&self) -> bool {
+        false
+    }
+
     /// The sums over a section. The library's business, overridden by the cheaper levels.
     #[doc(hidden)]
     fn perform(&self, task: &mut Task<'_>) -> Result<Response>
@@ -263,6 +302,10 @@ impl<L: Local> Sectional for L {
 
     fn is_local(&self) -> bool {
         true
+    }
+
+    fn is_homogeneous(&self) -> bool {
+        Local::is_homogeneous(self)
     }
 
     fn domain(&self) -> &'static str {
@@ -304,6 +347,23 @@ pub trait Material: Send + Sync {
         Ok(())
     }
 
+    /// As [`integrate_many`](Self::integrate_many), in the strains alone that are [active](Active). What is said about others is not to be relied on; by
+    /// default they are all differentiated.
+    ///
+    /// # Errors
+    /// As [`integrate_many`](Self::integrate_many).
+    fn integrate_active(
+        &self,
+        points: &Points,
+        sites: &[(Station, Strain)],
+        active: Active,
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        let _ = active;
+        self.integrate_many(points, sites, request, out)
+    }
+
     /// The degree of the energy density as a polynomial in the strain, x and y; `None` where it is not one.
     fn polynomial_degree(&self) -> Option<usize>;
 
@@ -315,6 +375,12 @@ pub trait Material: Send + Sync {
     /// Whether J > 0 is required and the volume of a curved reference accounted for: all but the [`Sectional`] laws.
     fn is_local(&self) -> bool {
         true
+    }
+
+    /// Whether the energy density is one of the deformation at the point and the same everywhere in a section, so that points that are deformed alike may be
+    /// taken together.
+    fn is_homogeneous(&self) -> bool {
+        false
     }
 }
 
@@ -336,7 +402,18 @@ impl<L: Sectional> Material for L {
         request: Request,
         out: &mut [Response],
     ) -> Result<()> {
-        self.perform(&mut Task::many(points, sites, request, out)).map(|_| ())
+        self.integrate_active(points, sites, Active::all(), request, out)
+    }
+
+    fn integrate_active(
+        &self,
+        points: &Points,
+        sites: &[(Station, Strain)],
+        active: Active,
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        self.perform(&mut Task::many(Many { points, sites, active, request, out })).map(|_| ())
     }
 
     fn polynomial_degree(&self) -> Option<usize> {
@@ -349,6 +426,10 @@ impl<L: Sectional> Material for L {
 
     fn is_local(&self) -> bool {
         Sectional::is_local(self)
+    }
+
+    fn is_homogeneous(&self) -> bool {
+        Sectional::is_homogeneous(self)
     }
 }
 
@@ -373,6 +454,17 @@ impl Material for Box<dyn Material> {
         (**self).integrate_many(points, sites, request, out)
     }
 
+    fn integrate_active(
+        &self,
+        points: &Points,
+        sites: &[(Station, Strain)],
+        active: Active,
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        (**self).integrate_active(points, sites, active, request, out)
+    }
+
     fn polynomial_degree(&self) -> Option<usize> {
         (**self).polynomial_degree()
     }
@@ -383,5 +475,9 @@ impl Material for Box<dyn Material> {
 
     fn is_local(&self) -> bool {
         (**self).is_local()
+    }
+
+    fn is_homogeneous(&self) -> bool {
+        (**self).is_homogeneous()
     }
 }

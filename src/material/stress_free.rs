@@ -50,6 +50,10 @@ impl<M: Material> Material for StressFree<M> {
     fn is_local(&self) -> bool {
         self.0.is_local()
     }
+
+    fn is_homogeneous(&self) -> bool {
+        self.0.is_homogeneous()
+    }
 }
 
 /// An isotropic law with its reference pressure: u − p(J−1), p = ∂u/∂J at rest, so that rest is free of stress.
@@ -91,6 +95,10 @@ impl<I: Isotropic> Isotropic for ReferencePressure<I> {
 
     fn is_uniform(&self) -> bool {
         self.0.is_uniform()
+    }
+
+    fn is_homogeneous(&self) -> bool {
+        self.0.is_homogeneous()
     }
 
     fn domain(&self) -> &'static str {

@@ -97,14 +97,16 @@ fn convex_step<B: Elastic, const S: usize>(
 ) -> Option<Step> {
     let scale = scale(mesh, state);
     let soft = softening(mesh, state).is_some();
+    let constraint = mesh.rod.body().constraint();
     let mut model = state.clone();
     while *models > 0 {
         *models -= 1;
         // the model in units of its own stiffness
         let units = Scale { force: scale.force * (1.0 + *mu), ..scale };
         for (modelled, response) in model.response.iter_mut().flatten().zip(state.response.iter().flatten()) {
-            let stiff = if soft { convex(&response.tangent) } else { response.tangent };
-            modelled.tangent = response.tangent + stiff * *mu;
+            let tangent = constraint.of_free(&response.tangent, 1.0);
+            let stiff = if soft { convex(&tangent) } else { tangent };
+            modelled.tangent = tangent + stiff * *mu;
         }
         // a base that may move is held back as well: supports alone need not keep the rod from swinging
         let held_back = Matrix6::from_diagonal(&hold_back(&scale)) * *mu;

@@ -41,12 +41,14 @@ pub(super) fn softening<B: Elastic, const S: usize>(
     mesh: &Mesh<'_, B, S>,
     state: &Configuration<S>,
 ) -> Option<f64> {
+    let constraint = mesh.rod.body().constraint();
+    let is_definite = |tangent| constraint.of_free(tangent, 1.0).cholesky().is_some();
     let mut definite: Option<&Matrix6<f64>> = None;
     for i in 0..mesh.elements() {
         for k in 0..S {
             let tangent = &state.response[i][k].tangent;
             // most laws are linear: what is the same as before needs no second look
-            if !definite.is_some_and(|other| is_same(other, tangent)) && tangent.cholesky().is_none() {
+            if !definite.is_some_and(|other| is_same(other, tangent)) && !is_definite(tangent) {
                 return Some(mesh.stage_s(i, k));
             }
             definite = Some(tangent);
@@ -93,9 +95,9 @@ fn is_resolved<B: Elastic, const S: usize>(
     i: usize,
     state: &Configuration<S>,
 ) -> bool {
-    let x = mesh.h(i) / std::f64::consts::PI;
+    let (x, constraint) = (mesh.h(i) / std::f64::consts::PI, mesh.rod.body().constraint());
     state.response[i].iter().zip(&state.stage_wrench[i]).all(|(response, wrench)| {
-        let d = response.tangent.diagonal();
+        let d = constraint.diagonal_of_free(&response.tangent, f64::INFINITY);
         let (bending, soft) = (d[0].min(d[1]).min(d[2]), d[3].min(d[4]).min(d[5]));
         let (moment, force) = (0.5 * x * wrench.moment.norm() / bending, wrench.force.norm());
         moment * moment + (force + force * force / soft) * x * x / bending <= SURELY_RESOLVED
@@ -203,12 +205,13 @@ pub(super) fn needed_parts<B: Elastic, const S: usize>(
     state: &Configuration<S>,
     resolved: f64,
 ) -> Vec<usize> {
+    let constraint = mesh.rod.body().constraint();
     let parts = |i: usize| {
         let x = mesh.h(i) / std::f64::consts::TAU;
         let mut most: f64 = 1.0;
         for k in 0..S {
             let (response, wrench) = (&state.response[i][k], &state.stage_wrench[i][k]);
-            let d = response.tangent.diagonal();
+            let d = constraint.diagonal_of_free(&response.tangent, f64::INFINITY);
             let (bending, shear) = (d[0].min(d[1]).min(d[2]), d[3].min(d[4]));
             let n = wrench.force.norm();
             let along = wrench.force.z;
