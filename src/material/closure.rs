@@ -1,8 +1,8 @@
 use super::blocks::{Blank, Blocks, Derivatives, Respond, fill_registers};
 use super::differentiate::{Fibre, FibreResponse, Rate, unpack};
+use super::integrand::Material;
 use super::integrate::{Job, Site, integrate_local, sum_by_blocks};
 use super::kinematics::{Deformation, Invariants, Point};
-use super::law::Material;
 use super::response::{Points, Request, Response, Station};
 use super::sectional::{EnergyJet, Place, Spans, add_span, integrate_sectional};
 use super::span::Span;

@@ -1,7 +1,8 @@
 use num_dual::Dual;
 
+use super::integrand::Material;
 use super::kinematics::{Invariants, Point};
-use super::law::{Isotropic, Material};
+use super::law::Isotropic;
 use super::response::{Points, Request, Response, Station};
 use super::task::Task;
 use crate::error::Result;
