@@ -1,4 +1,7 @@
+use nalgebra::Matrix6;
+
 use crate::lie::Strain;
+use crate::material::Active;
 
 /// The strains that a rod cannot have: they keep their reference value, Δξ_k = 0, whatever the wrench.
 ///
@@ -88,6 +91,27 @@ impl Constraint {
         let mut free = strain.to_array();
         free.iter_mut().zip(self.fixed).filter(|(_, fixed)| *fixed).for_each(|(strain, _)| *strain = 0.0);
         Strain::from_array(free)
+    }
+
+    /// Those that are not.
+    pub fn active(&self) -> Active {
+        Active::of(self.fixed.map(|fixed| !fixed))
+    }
+
+    /// A tangent with a number on the diagonal for the strains that are fixed, and nothing else of theirs.
+    pub(crate) fn of_free(&self, tangent: &Matrix6<f64>, diagonal: f64) -> Matrix6<f64> {
+        let mut free = *tangent;
+        for i in (0..6).filter(|&i| self.fixed[i]) {
+            free.row_mut(i).fill(0.0);
+            free.column_mut(i).fill(0.0);
+            free[(i, i)] = diagonal;
+        }
+        free
+    }
+
+    /// The diagonal of a tangent, with a number in place of what it has for the strains that are fixed.
+    pub(crate) fn diagonal_of_free(&self, tangent: &Matrix6<f64>, fixed: f64) -> [f64; 6] {
+        std::array::from_fn(|i| if self.fixed[i] { fixed } else { tangent[(i, i)] })
     }
 
     /// Whether all strains are free.

@@ -158,7 +158,8 @@ pub trait Elastic: Send + Sync {
     /// As [`CrossSection::respond`].
     fn respond(&self, s: f64, strain: &Strain, request: Request) -> Result<Response>;
 
-    /// As [`respond`](Self::respond) for as many arc lengths as strains at once.
+    /// As [`respond`](Self::respond) for as many arc lengths as strains at once. What it says about strains that are fixed by the
+    /// [constraint](Self::constraint) is not to be relied on.
     ///
     /// # Errors
     /// As [`respond`](Self::respond), for the first that fails.
@@ -210,6 +211,7 @@ impl<C: CrossSection, M: Send + Sync> Elastic for Body<C, M> {
         /// Sites made at a time: the stages of eight elements of order 6.
         const SITES: usize = 24;
         let mut sites = [(Station::straight(0.0), Strain::zero()); SITES];
+        let active = self.constraint.active();
         let all = places.chunks(SITES).zip(strains.chunks(SITES)).zip(out.chunks_mut(SITES));
         for ((places, strains), out) in all {
             for ((site, s), strain) in sites.iter_mut().zip(places).zip(strains) {
@@ -219,7 +221,7 @@ impl<C: CrossSection, M: Send + Sync> Elastic for Body<C, M> {
                 }
                 (site.0.s, site.1) = (*s, *strain);
             }
-            self.section.respond_many(&sites[..places.len()], request, out)?;
+            self.section.respond_active(&sites[..places.len()], active, request, out)?;
         }
         Ok(())
     }

@@ -62,6 +62,10 @@ impl Isotropic for ArrudaBoyce {
         chains + (e * e * 0.5 + x_minus_ln_1p(e)) * (0.5 * self.kappa)
     }
 
+    fn is_homogeneous(&self) -> bool {
+        true
+    }
+
     fn domain(&self) -> &'static str {
         "finite, which needs J > 0"
     }

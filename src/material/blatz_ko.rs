@@ -64,6 +64,10 @@ impl Isotropic for BlatzKo {
         (solid * self.fraction + foam * (1.0 - self.fraction)) * (0.5 * self.mu)
     }
 
+    fn is_homogeneous(&self) -> bool {
+        true
+    }
+
     fn domain(&self) -> &'static str {
         "finite, which needs J > 0"
     }

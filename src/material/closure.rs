@@ -1,13 +1,12 @@
-use super::blocks::{Blank, Blocks, Respond, fill_registers};
+use super::blocks::{Blank, Blocks, Derivatives, Respond, fill_registers};
 use super::differentiate::{Fibre, FibreResponse, Rate, unpack};
-use super::integrate::{Job, Site, sum_by_blocks};
+use super::integrand::Material;
+use super::integrate::{Job, Site, integrate_local, sum_by_blocks};
 use super::kinematics::{Deformation, Invariants, Point};
-use super::law::Material;
 use super::response::{Points, Request, Response, Station};
-use super::sectional::{EnergyJet, Place, Spans, add_span};
+use super::sectional::{EnergyJet, Place, Spans, add_span, integrate_sectional};
 use super::span::Span;
 use super::sums::Totals;
-use super::task::Task;
 use crate::error::Result;
 use crate::lie::Strain;
 use crate::scalar::{Jet, Portable, lanes_disagreed};
@@ -86,6 +85,10 @@ where
     F: Fn(&Deformation<LocalJet>, &Point<LocalJet>) -> LocalJet,
 {
     fn fill(&self, _: Request, blank: &mut Blank<'_>) -> bool {
+        // these lanes may be fewer than those that read: what they leave out has no weight, and must not be left from a sum that failed
+        if let Some(last) = blank.out.last_mut() {
+            *last = Derivatives::ZERO;
+        }
         fill_registers::<Portable, Rate, _>(self, blank);
         lanes_disagreed()
     }
@@ -149,7 +152,7 @@ where
     ) -> Result<Response> {
         let law =
             Called(|f: &Deformation<LocalJet>, point: &Point<LocalJet>| (self.0)(&f.invariants(), point));
-        Task::one(Site { points, at, strain }, request).perform(&law)
+        integrate_local(&law, &Job::new(Site { points, at, strain }, request))
     }
 
     fn polynomial_degree(&self) -> Option<usize> {
@@ -169,7 +172,7 @@ where
         request: Request,
     ) -> Result<Response> {
         let law = Called(&self.0);
-        Task::one(Site { points, at, strain }, request).perform(&law)
+        integrate_local(&law, &Job::new(Site { points, at, strain }, request))
     }
 
     fn polynomial_degree(&self) -> Option<usize> {
@@ -189,7 +192,7 @@ where
         request: Request,
     ) -> Result<Response> {
         let law = CalledWithStrain(&self.0);
-        Task::one(Site { points, at, strain }, request).perform_sectional(&law)
+        integrate_sectional(&law, &Job::new(Site { points, at, strain }, request))
     }
 
     fn polynomial_degree(&self) -> Option<usize> {

@@ -31,6 +31,10 @@ impl<A: Local, B: Local> Local for Sum<A, B> {
         self.0.is_uniform() && self.1.is_uniform()
     }
 
+    fn is_homogeneous(&self) -> bool {
+        self.0.is_homogeneous() && self.1.is_homogeneous()
+    }
+
     fn domain(&self) -> &'static str {
         "finite: the strain leaves the domain of one of the laws added"
     }
@@ -72,6 +76,10 @@ impl<L: Local> Local for Scaled<L> {
 
     fn is_uniform(&self) -> bool {
         self.law.is_uniform()
+    }
+
+    fn is_homogeneous(&self) -> bool {
+        self.law.is_homogeneous()
     }
 
     fn domain(&self) -> &'static str {

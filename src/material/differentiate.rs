@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use super::kinematics::{Deformation, Invariants, Point};
 use super::law::{Isotropic, Local};
 use super::response::Request;
+use super::three::Three;
 use crate::scalar::{Jet, Lane};
 
 /// A request known at compile time, so that each is compiled for itself.
@@ -109,6 +110,41 @@ impl<L: Lane> FibreResponse<L> {
         let zero = L::splat(0.0);
         Self { energy, stress: [zero; 3], stiffness: [zero; 6], stress_rate: [zero; 3] }
     }
+}
+
+/// Value and derivatives of a local energy density in the two variables ε and η of [`Three`].
+#[derive(Clone, Copy, Debug)]
+pub struct TwoWays<L> {
+    /// u, J/m³.
+    pub energy: L,
+    /// ∂u/∂ε and ∂u/∂η.
+    pub stress: [L; 2],
+    /// Second derivatives εε, εη, ηη.
+    pub stiffness: [L; 3],
+}
+
+/// Two variables, ε and η.
+#[inline(always)]
+pub(super) fn local_two_ways<M: Local + ?Sized, L: Lane, T: Three>(law: &M, fibre: &Fibre<L>) -> TwoWays<L> {
+    let [a, b, e] = T::gamma(fibre);
+    let gamma = Deformation::from_gamma(Vector3::new(a, b, e));
+    let u = law.energy_density(&gamma, &fibre.fixed_point());
+    TwoWays { energy: u.value, stress: u.gradient, stiffness: u.hessian }
+}
+
+/// Two variables (s = a² + b², e), and the chain rule by hand: ∂u/∂ε = s′ u_s, ∂²u/∂ε² = s′² u_ss + s″ u_s.
+#[inline(always)]
+pub(super) fn isotropic_two_ways<M: Isotropic + ?Sized, L: Lane, T: Three>(
+    law: &M,
+    fibre: &Fibre<L>,
+) -> TwoWays<L> {
+    let [a, b, e] = fibre.gamma;
+    let (s, e) = (Jet::<L, 2, 3>::variable(a.mul_add(a, b * b), 0), Jet::variable(e, 1));
+    let u = law.evaluate(&Invariants::from_shear_and_stretch(s, e), &fibre.fixed_point());
+    let ([u_s, u_e], [ss, se, ee]) = (u.gradient, u.hessian);
+    let [slope, second] = T::shear(fibre);
+    let along = slope.mul_add(slope * ss, second * u_s);
+    TwoWays { energy: u.value, stress: [slope * u_s, u_e], stiffness: [along, slope * se, ee] }
 }
 
 /// Three variables (a, b, e), and s as a fourth where Ψ′ is wanted.

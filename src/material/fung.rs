@@ -37,6 +37,10 @@ impl Isotropic for Fung {
         growth * (0.5 * self.mu / self.stiffening) + i.j() * i.j() * (0.5 * self.kappa)
     }
 
+    fn is_homogeneous(&self) -> bool {
+        true
+    }
+
     fn domain(&self) -> &'static str {
         "finite, which needs J > 0 and an exponential exp(b (I1 - 3)) that does not overflow"
     }

@@ -50,6 +50,10 @@ impl Isotropic for Gent {
         chains + ln_j * ln_j * (0.5 * self.lambda)
     }
 
+    fn is_homogeneous(&self) -> bool {
+        true
+    }
+
     fn domain(&self) -> &'static str {
         "finite, which needs J > 0 and I1 - 3 - 2 ln J below the limit Jm"
     }

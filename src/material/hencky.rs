@@ -40,6 +40,10 @@ impl Local for Hencky {
         f.log_strain_squared() * self.mu + ln_j * ln_j * (0.5 * self.lambda)
     }
 
+    fn is_homogeneous(&self) -> bool {
+        true
+    }
+
     fn domain(&self) -> &'static str {
         "finite, which needs J > 0"
     }

@@ -35,6 +35,10 @@ impl Isotropic for IsochoricNeoHookean {
         i.i1_isochoric() * (0.5 * self.mu) + i.j() * i.j() * (0.5 * self.kappa)
     }
 
+    fn is_homogeneous(&self) -> bool {
+        true
+    }
+
     fn domain(&self) -> &'static str {
         "finite, which needs J > 0"
     }

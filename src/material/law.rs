@@ -1,10 +1,13 @@
-use super::differentiate::{Fibre, FibreResponse, Level, isotropic_response, local_response};
+use super::differentiate::{
+    Fibre, FibreResponse, Level, TwoWays, isotropic_response, isotropic_two_ways, local_response,
+    local_two_ways,
+};
 use super::gradient::{GradientResponse, GradientSite, isotropic_gradient_response, local_gradient_response};
-use super::integrate::Site;
 use super::kinematics::{Deformation, Invariants, Point};
-use super::response::{Points, Request, Response, Station};
+use super::response::Response;
 use super::stress_free::WithoutPressure;
 use super::task::Task;
+use super::three::Three;
 use crate::error::Result;
 use crate::lie::Strain;
 use crate::scalar::{Jet, Lane, Scalar};
@@ -42,6 +45,12 @@ pub trait Isotropic: Send + Sync {
 
     /// Whether the energy density is the same at every s, that is, ignores `at.s`. A uniform quadratic one is integrated once and for all.
     fn is_uniform(&self) -> bool {
+        false
+    }
+
+    /// Whether the energy density is the same everywhere in a section, that is, ignores `at.x` and `at.y`. Bending in a plane then takes as many points as
+    /// there are different places across it: half of them or fewer.
+    fn is_homogeneous(&self) -> bool {
         false
     }
 
@@ -125,6 +134,12 @@ pub trait Local: Send + Sync {
         false
     }
 
+    /// Whether the energy density is the same everywhere in a section, that is, ignores `at.x` and `at.y`. Bending in a plane then takes as many points as
+    /// there are different places across it: half of them or fewer.
+    fn is_homogeneous(&self) -> bool {
+        false
+    }
+
     /// Where the law is defined, in words for an error message.
     fn domain(&self) -> &'static str {
         "where the energy density is finite"
@@ -135,6 +150,13 @@ pub trait Local: Send + Sync {
     #[inline(always)]
     fn respond<L: Lane, O: Level>(&self, fibre: &Fibre<L>) -> FibreResponse<L> {
         local_response::<Self, L, O>(self, fibre)
+    }
+
+    /// The derivatives in three strains, by two variables. The library's business, overridden by the isotropic level.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn respond_in_two_ways<L: Lane, T: Three>(&self, fibre: &Fibre<L>) -> TwoWays<L> {
+        local_two_ways::<Self, L, T>(self, fibre)
     }
 
     /// The sums over a section. The library's business, overridden by the isotropic level.
@@ -169,6 +191,10 @@ impl<M: Isotropic> Local for M {
         Isotropic::is_uniform(self)
     }
 
+    fn is_homogeneous(&self) -> bool {
+        Isotropic::is_homogeneous(self)
+    }
+
     fn domain(&self) -> &'static str {
         Isotropic::domain(self)
     }
@@ -176,6 +202,11 @@ impl<M: Isotropic> Local for M {
     #[inline(always)]
     fn respond<L: Lane, O: Level>(&self, fibre: &Fibre<L>) -> FibreResponse<L> {
         isotropic_response::<Self, L, O>(self, fibre)
+    }
+
+    #[inline(always)]
+    fn respond_in_two_ways<L: Lane, T: Three>(&self, fibre: &Fibre<L>) -> TwoWays<L> {
+        isotropic_two_ways::<Self, L, T>(self, fibre)
     }
 
     fn perform(&self, task: &mut Task<'_>) -> Result<Response> {
@@ -237,6 +268,12 @@ pub trait Sectional: Send + Sync {
         false
     }
 
+    /// Whether the energy is one of the deformation at the point that ignores where in the section that is. The library's business.
+    #[doc(hidden)]
+    fn is_homogeneous(&self) -> bool {
+        false
+    }
+
     /// The sums over a section. The library's business, overridden by the cheaper levels.
     #[doc(hidden)]
     fn perform(&self, task: &mut Task<'_>) -> Result<Response>
@@ -265,123 +302,15 @@ impl<L: Local> Sectional for L {
         true
     }
 
+    fn is_homogeneous(&self) -> bool {
+        Local::is_homogeneous(self)
+    }
+
     fn domain(&self) -> &'static str {
         Local::domain(self)
     }
 
     fn perform(&self, task: &mut Task<'_>) -> Result<Response> {
         Local::perform(self, task)
-    }
-}
-
-/// What a section asks of its material: the integral of an energy density and of its derivatives.
-///
-/// Every law is one, at whichever level and in whichever way it was written; the trait can be made into an object, so
-/// materials can be boxed and mixed.
-pub trait Material: Send + Sync {
-    /// U = ∫u dA, Ψ = ∫∇u dA, ∂Ψ/∂Δξ and Ψ′ over the given points, as far as asked.
-    ///
-    /// # Errors
-    /// [`Error::Inadmissible`](crate::Error::Inadmissible) where a point is turned inside out (J ≤ 0) or leaves the law's domain;
-    /// [`Error::InvalidAt`](crate::Error::InvalidAt) where the strain is not finite.
-    fn integrate(&self, points: &Points, at: &Station, strain: &Strain, request: Request)
-    -> Result<Response>;
-
-    /// As [`integrate`](Self::integrate) for many strains on the same points: a lane a strain, which saves the sums over the lanes.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate), for the first strain that fails.
-    fn integrate_many(
-        &self,
-        points: &Points,
-        sites: &[(Station, Strain)],
-        request: Request,
-        out: &mut [Response],
-    ) -> Result<()> {
-        for ((at, strain), out) in sites.iter().zip(out) {
-            *out = self.integrate(points, at, strain, request)?;
-        }
-        Ok(())
-    }
-
-    /// The degree of the energy density as a polynomial in the strain, x and y; `None` where it is not one.
-    fn polynomial_degree(&self) -> Option<usize>;
-
-    /// Whether the energy density is the same at every s.
-    fn is_uniform(&self) -> bool {
-        false
-    }
-
-    /// Whether J > 0 is required and the volume of a curved reference accounted for: all but the [`Sectional`] laws.
-    fn is_local(&self) -> bool {
-        true
-    }
-}
-
-impl<L: Sectional> Material for L {
-    fn integrate(
-        &self,
-        points: &Points,
-        at: &Station,
-        strain: &Strain,
-        request: Request,
-    ) -> Result<Response> {
-        self.perform(&mut Task::one(Site { points, at, strain }, request))
-    }
-
-    fn integrate_many(
-        &self,
-        points: &Points,
-        sites: &[(Station, Strain)],
-        request: Request,
-        out: &mut [Response],
-    ) -> Result<()> {
-        self.perform(&mut Task::many(points, sites, request, out)).map(|_| ())
-    }
-
-    fn polynomial_degree(&self) -> Option<usize> {
-        Sectional::degree(self)
-    }
-
-    fn is_uniform(&self) -> bool {
-        Sectional::is_uniform(self)
-    }
-
-    fn is_local(&self) -> bool {
-        Sectional::is_local(self)
-    }
-}
-
-impl Material for Box<dyn Material> {
-    fn integrate(
-        &self,
-        points: &Points,
-        at: &Station,
-        strain: &Strain,
-        request: Request,
-    ) -> Result<Response> {
-        (**self).integrate(points, at, strain, request)
-    }
-
-    fn integrate_many(
-        &self,
-        points: &Points,
-        sites: &[(Station, Strain)],
-        request: Request,
-        out: &mut [Response],
-    ) -> Result<()> {
-        (**self).integrate_many(points, sites, request, out)
-    }
-
-    fn polynomial_degree(&self) -> Option<usize> {
-        (**self).polynomial_degree()
-    }
-
-    fn is_uniform(&self) -> bool {
-        (**self).is_uniform()
-    }
-
-    fn is_local(&self) -> bool {
-        (**self).is_local()
     }
 }

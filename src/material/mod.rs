@@ -38,6 +38,7 @@
 //!
 //! What lives here knows strains, points and weights; it knows no shape, no body and no rod.
 
+mod active;
 mod arruda_boyce;
 mod batch;
 mod blatz_ko;
@@ -48,6 +49,8 @@ mod combine;
 mod compiled_here;
 mod diagnose;
 mod differentiate;
+mod few;
+mod few_kernels;
 mod fibre_direction;
 mod fibres;
 mod fung;
@@ -55,6 +58,7 @@ mod gent;
 mod gradient;
 mod hencky;
 mod holzapfel_gasser_ogden;
+mod integrand;
 mod integrate;
 mod isochoric_neo_hookean;
 mod kinematics;
@@ -75,11 +79,13 @@ mod spectral;
 mod stress_free;
 mod sums;
 mod task;
+mod three;
 mod walk;
 mod yeoh;
 
 #[doc(hidden)]
 pub use crate::lie::Strain as __Strain;
+pub use active::Active;
 pub use arruda_boyce::ArrudaBoyce;
 pub use blatz_ko::BlatzKo;
 pub use closure::{
@@ -88,7 +94,7 @@ pub use closure::{
 pub use coefficient_table::Coefficient;
 pub use combine::{Scaled, Sum};
 #[doc(hidden)]
-pub use differentiate::{Fibre, FibreResponse, Level};
+pub use differentiate::{Fibre, FibreResponse, Level, TwoWays};
 pub use fibre_direction::{FibreDirection, Helix, Straight, Twisted};
 pub use fibres::Fibres;
 pub use fung::Fung;
@@ -98,9 +104,10 @@ pub(crate) use gradient::{GradientBatch, GradientLaw, GradientState, packed};
 pub use gradient::{GradientResponse, GradientSite};
 pub use hencky::Hencky;
 pub use holzapfel_gasser_ogden::HolzapfelGasserOgden;
+pub use integrand::Material;
 pub use isochoric_neo_hookean::IsochoricNeoHookean;
 pub use kinematics::{Deformation, Invariants, Point};
-pub use law::{Isotropic, Local, Material, Sectional};
+pub use law::{Isotropic, Local, Sectional};
 pub use linear_elastic::LinearElastic;
 pub use mooney_rivlin::MooneyRivlin;
 pub use neo_hookean::NeoHookean;
@@ -112,4 +119,6 @@ pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
 pub use stress_free::{ReferencePressure, StressFree};
 #[doc(hidden)]
 pub use task::Task;
+#[doc(hidden)]
+pub use three::Three;
 pub use yeoh::Yeoh;

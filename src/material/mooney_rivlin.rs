@@ -66,6 +66,10 @@ impl Isotropic for MooneyRivlin {
         Some(2)
     }
 
+    fn is_homogeneous(&self) -> bool {
+        true
+    }
+
     fn is_uniform(&self) -> bool {
         true
     }

@@ -59,6 +59,10 @@ impl Isotropic for NeoHookean {
         (i.i1_excess() + x_minus_ln_1p(i.j()) * 2.0) * (0.5 * self.mu) + ln_j * ln_j * (0.5 * self.lambda)
     }
 
+    fn is_homogeneous(&self) -> bool {
+        true
+    }
+
     fn domain(&self) -> &'static str {
         "finite, which needs J > 0"
     }

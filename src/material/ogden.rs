@@ -99,6 +99,10 @@ impl Local for Ogden {
         })
     }
 
+    fn is_homogeneous(&self) -> bool {
+        true
+    }
+
     fn domain(&self) -> &'static str {
         "finite, which needs J > 0"
     }

@@ -106,6 +106,10 @@ impl Isotropic for Polynomial {
         Some(linear + table.higher(i.i1(), i.i2()) + table.volumetric(i.j()))
     }
 
+    fn is_homogeneous(&self) -> bool {
+        true
+    }
+
     fn domain(&self) -> &'static str {
         "finite"
     }
@@ -172,6 +176,10 @@ impl Isotropic for IsochoricPolynomial {
         let table = &self.table;
         let (i1, i2) = (i.i1_isochoric(), i.i2_isochoric());
         i1 * table.c10() + i2 * table.c01() + table.higher(i1, i2) + table.volumetric(i.j())
+    }
+
+    fn is_homogeneous(&self) -> bool {
+        true
     }
 
     fn domain(&self) -> &'static str {

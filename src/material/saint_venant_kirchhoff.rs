@@ -51,6 +51,10 @@ impl Isotropic for SaintVenantKirchhoff {
         true
     }
 
+    fn is_homogeneous(&self) -> bool {
+        true
+    }
+
     fn domain(&self) -> &'static str {
         "finite"
     }

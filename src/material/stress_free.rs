@@ -1,7 +1,8 @@
 use num_dual::Dual;
 
+use super::integrand::Material;
 use super::kinematics::{Invariants, Point};
-use super::law::{Isotropic, Material};
+use super::law::Isotropic;
 use super::response::{Points, Request, Response, Station};
 use super::task::Task;
 use crate::error::Result;
@@ -50,6 +51,10 @@ impl<M: Material> Material for StressFree<M> {
     fn is_local(&self) -> bool {
         self.0.is_local()
     }
+
+    fn is_homogeneous(&self) -> bool {
+        self.0.is_homogeneous()
+    }
 }
 
 /// An isotropic law with its reference pressure: u − p(J−1), p = ∂u/∂J at rest, so that rest is free of stress.
@@ -91,6 +96,10 @@ impl<I: Isotropic> Isotropic for ReferencePressure<I> {
 
     fn is_uniform(&self) -> bool {
         self.0.is_uniform()
+    }
+
+    fn is_homogeneous(&self) -> bool {
+        self.0.is_homogeneous()
     }
 
     fn domain(&self) -> &'static str {

@@ -65,9 +65,7 @@ impl<L: Lane> Sums<L> {
     /// Zero, with an energy that is NaN where a component of the strain is not finite: a law need not look at every one.
     #[inline(always)]
     pub(super) fn of(xi: &[L; 6]) -> Self {
-        let [a, b, c, d, e, f] = *xi;
-        let energy = L::splat(0.0) * (((a + b) + (c + d)) + (e + f));
-        Self { energy, ..Self::zero() }
+        Self { energy: energy_of(xi), ..Self::zero() }
     }
 
     /// Adds energy and wrench of a local law at a block: w j u, w Bᵀ g, and for the rate (w′ Bᵀ + w B′ᵀ) g + w Bᵀ g′.
@@ -189,6 +187,13 @@ impl<L: Lane> Sums<L> {
             }
         }
     }
+}
+
+/// Zero; NaN where a component of the strain is not finite.
+#[inline(always)]
+pub(super) fn energy_of<L: Lane>(xi: &[L; 6]) -> L {
+    let [a, b, c, d, e, f] = *xi;
+    L::splat(0.0) * (((a + b) + (c + d)) + (e + f))
 }
 
 #[inline(always)]

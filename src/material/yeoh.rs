@@ -56,6 +56,10 @@ impl Isotropic for Yeoh {
         x * (x * (x * c3 + c2) + c1) + y * (y * (y * d3 + d2) + d1)
     }
 
+    fn is_homogeneous(&self) -> bool {
+        true
+    }
+
     fn domain(&self) -> &'static str {
         "finite, which needs J > 0"
     }

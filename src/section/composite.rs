@@ -2,7 +2,7 @@ use super::CrossSection;
 use super::geometry::{AreaMoments, Geometry};
 use crate::error::{Result, not_negative};
 use crate::lie::Strain;
-use crate::material::{Request, Response, Station};
+use crate::material::{Active, Request, Response, Station};
 
 /// Several sections bonded together, each with its own shape and material: a stiff core in a soft sleeve.
 ///
@@ -76,12 +76,22 @@ impl CrossSection for Composite {
         request: Request,
         out: &mut [Response],
     ) -> Result<()> {
+        self.respond_active(sites, Active::all(), request, out)
+    }
+
+    fn respond_active(
+        &self,
+        sites: &[(Station, Strain)],
+        active: Active,
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
         let count = sites.len().min(out.len());
         let (sites, out) = (&sites[..count], &mut out[..count]);
         let mut totals = vec![Response::zero(); count];
         let mut of_part = totals.clone();
         for (part, _) in &self.parts {
-            if part.respond_many(sites, request, &mut of_part).is_err() {
+            if part.respond_active(sites, active, request, &mut of_part).is_err() {
                 for ((at, strain), out) in sites.iter().zip(out) {
                     *out = self.respond(at, strain, request)?;
                 }

@@ -15,6 +15,7 @@ mod degree;
 mod effective;
 mod ellipse;
 mod geometry;
+mod lines;
 mod path;
 mod placement;
 mod point_cloud;
@@ -59,7 +60,7 @@ use nalgebra::Matrix6;
 
 use crate::error::Result;
 use crate::lie::{Strain, Wrench};
-use crate::material::{Request, Response, Station};
+use crate::material::{Active, Request, Response, Station};
 
 /// What a rod asks of its section: the response to a strain at a station, in `f64`; it can be made into an object.
 #[diagnostic::on_unimplemented(
@@ -89,6 +90,22 @@ pub trait CrossSection: Send + Sync {
             *out = self.respond(at, strain, request)?;
         }
         Ok(())
+    }
+
+    /// As [`respond_many`](Self::respond_many), in the strains alone that are [active](Active), which is what a constrained rod asks for. What is said about
+    /// others is not to be relied on; by default they are all differentiated.
+    ///
+    /// # Errors
+    /// As [`respond_many`](Self::respond_many).
+    fn respond_active(
+        &self,
+        sites: &[(Station, Strain)],
+        active: Active,
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        let _ = active;
+        self.respond_many(sites, request, out)
     }
 
     /// The strain energy per length U = ∫u dA, J/m.
@@ -161,6 +178,16 @@ impl CrossSection for Box<dyn CrossSection> {
         out: &mut [Response],
     ) -> Result<()> {
         (**self).respond_many(sites, request, out)
+    }
+
+    fn respond_active(
+        &self,
+        sites: &[(Station, Strain)],
+        active: Active,
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        (**self).respond_active(sites, active, request, out)
     }
 
     fn adapt_to(&mut self, at: &Station) -> Result<()> {

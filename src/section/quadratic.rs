@@ -1,6 +1,6 @@
 use crate::error::{Error, Result};
 use crate::lie::{Strain, Wrench};
-use crate::material::{Material, Points, Request, Response, Station, check_strain};
+use crate::material::{Active, Material, Points, Request, Response, Station, check_strain};
 
 /// The response of a section whose energy is quadratic in the strain and the same at every s: integrated once, at rest.
 ///
@@ -36,6 +36,38 @@ impl Quadratic {
         strain: &Strain,
         request: Request,
     ) -> Result<Response> {
+        let (energy, wrench) = self.terms(points, at, strain)?;
+        Ok(match request {
+            Request::Energy => Response { energy, ..Response::zero() },
+            Request::Wrench => Response { energy, wrench, ..Response::zero() },
+            Request::Tangent | Request::Rate => {
+                Response { energy, wrench, tangent: self.rest.tangent, wrench_rate: Wrench::zero() }
+            }
+        })
+    }
+
+    /// Writes what is asked for in the strains that are active; the rest of wrench and tangent is left as it is.
+    #[inline]
+    pub(super) fn answer(
+        &self,
+        points: &Points,
+        at: &Station,
+        strain: &Strain,
+        active: Active,
+        request: Request,
+        out: &mut Response,
+    ) -> Result<()> {
+        let (energy, wrench) = self.terms(points, at, strain)?;
+        out.energy = energy;
+        out.wrench_rate = Wrench::zero();
+        let wrench = (request >= Request::Wrench).then_some(&wrench);
+        active.write(wrench, (request >= Request::Tangent).then_some(&self.rest.tangent), out);
+        Ok(())
+    }
+
+    /// Energy and wrench.
+    #[inline(always)]
+    fn terms(&self, points: &Points, at: &Station, strain: &Strain) -> Result<(f64, Wrench)> {
         let (v, n) = (strain.angular, strain.linear);
         let mut smallest = f64::INFINITY;
         if self.local {
@@ -43,20 +75,12 @@ impl Quadratic {
                 smallest = smallest.min(1.0 + n.z + v.x * y - v.y * x);
             }
         }
-        let k = &self.rest.tangent;
-        let slope = Wrench::from_vector(&(k * strain.to_vector()));
-        let wrench = self.rest.wrench + slope;
+        let slope = Wrench::from_vector(&(self.rest.tangent * strain.to_vector()));
         let energy = self.rest.energy + strain.pair(&self.rest.wrench) + 0.5 * strain.pair(&slope);
         if !(smallest > 0.0 && energy.is_finite()) {
             return Err(inadmissible(points, at, strain));
         }
-        Ok(match request {
-            Request::Energy => Response { energy, ..Response::zero() },
-            Request::Wrench => Response { energy, wrench, ..Response::zero() },
-            Request::Tangent | Request::Rate => {
-                Response { energy, wrench, tangent: *k, wrench_rate: Wrench::zero() }
-            }
-        })
+        Ok((energy, self.rest.wrench + slope))
     }
 }
 

@@ -1,11 +1,12 @@
 use super::CrossSection;
 use super::degree::{Probe, QuadratureReport, StrainRange};
 use super::geometry::{AreaMoments, Geometry};
+use super::lines;
 use super::quadratic::Quadratic;
 use super::shape::Shape;
 use crate::error::{Error, Result};
 use crate::lie::{Strain, Twist};
-use crate::material::{Material, Points, Request, Response, Station};
+use crate::material::{Active, Material, Points, Request, Response, Station};
 use crate::quadrature::Rule;
 
 /// A shape filled with one material; plane sections stay plane and keep their shape (rigid section).
@@ -47,6 +48,8 @@ pub struct Section<S, M> {
     rule: Rule,
     fixed: Option<(Points, AreaMoments)>,
     quadratic: Option<Quadratic>,
+    /// Fewer points for strains in the plane, where there are such.
+    lines: Option<Points>,
     adapted_to: Option<Twist>,
 }
 
@@ -88,6 +91,7 @@ impl<S: Shape, M: Material> Section<S, M> {
             rule,
             fixed: None,
             quadratic: None,
+            lines: None,
             adapted_to: None,
             shape,
             material,
@@ -150,11 +154,12 @@ impl<S: Shape, M: Material> Section<S, M> {
 
     /// Places the points once and for all where the shape does not vary.
     fn prepare(&mut self) -> Result<()> {
-        self.fixed = None;
+        (self.fixed, self.lines) = (None, None);
         if self.shape.is_constant() {
             let points = self.shape.place(&self.rule, 0.0)?;
             let moments = AreaMoments::of(&points);
             self.quadratic = Quadratic::of(&self.material, &points)?;
+            self.lines = if self.material.is_homogeneous() { lines::lines(&points) } else { None };
             self.fixed = Some((points, moments));
         }
         Ok(())
@@ -221,17 +226,34 @@ impl<S: Shape, M: Material> CrossSection for Section<S, M> {
         request: Request,
         out: &mut [Response],
     ) -> Result<()> {
-        match &self.fixed {
-            Some((points, _)) if self.quadratic.is_none() => {
-                self.material.integrate_many(points, sites, request, out)
+        self.respond_active(sites, Active::all(), request, out)
+    }
+
+    fn respond_active(
+        &self,
+        sites: &[(Station, Strain)],
+        active: Active,
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        if let (Some((points, _)), None) = (&self.fixed, &self.quadratic) {
+            // what is refused is refused once more at the points themselves, so that one of them is named
+            if let Some(lines) = self.lines.as_ref().filter(|_| lines::are_alike(active, sites))
+                && self.material.integrate_active(lines, sites, active, request, out).is_ok()
+            {
+                return Ok(());
             }
-            _ => {
-                for ((at, strain), out) in sites.iter().zip(out) {
-                    *out = self.respond(at, strain, request)?;
+            return self.material.integrate_active(points, sites, active, request, out);
+        }
+        for ((at, strain), out) in sites.iter().zip(out) {
+            match (&self.quadratic, &self.fixed) {
+                (Some(quadratic), Some((points, _))) if quadratic.holds(at) => {
+                    quadratic.answer(points, at, strain, active, request, out)?;
                 }
-                Ok(())
+                _ => *out = self.respond(at, strain, request)?,
             }
         }
+        Ok(())
     }
 
     /// Raises the degree until the curvature of the reference is resolved; a degree that the user asked for stays.

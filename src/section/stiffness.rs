@@ -3,7 +3,7 @@ use nalgebra::{Matrix6, Vector6};
 use super::CrossSection;
 use crate::error::{Error, Result};
 use crate::lie::{Strain, Wrench};
-use crate::material::{Request, Response, Station, check_strain};
+use crate::material::{Active, Request, Response, Station, check_strain};
 
 /// A section given by its resultants alone: Ψ = K Δξ with a constant, symmetric, positive definite K.
 ///
@@ -67,17 +67,21 @@ impl Stiffness {
 }
 
 impl Stiffness {
-    /// Writes what is asked for; the rest is left as it is.
-    fn answer(&self, at: &Station, strain: &Strain, request: Request, out: &mut Response) -> Result<()> {
+    /// Writes what is asked for in the strains that are active; the rest of wrench and tangent is left as it is.
+    fn answer(
+        &self,
+        at: &Station,
+        strain: &Strain,
+        active: Active,
+        request: Request,
+        out: &mut Response,
+    ) -> Result<()> {
         check_strain(strain, at.s)?;
         let wrench = Wrench::from_array(product(&self.k, &strain.to_array()));
         out.energy = 0.5 * strain.pair(&wrench);
-        if request >= Request::Wrench {
-            out.wrench = wrench;
-        }
-        if request >= Request::Tangent && !is_same(&out.tangent, &self.k) {
-            out.tangent = self.k;
-        }
+        out.wrench_rate = Wrench::zero();
+        let wrench = (request >= Request::Wrench).then_some(&wrench);
+        active.write(wrench, (request >= Request::Tangent).then_some(&self.k), out);
         Ok(())
     }
 }
@@ -94,16 +98,10 @@ fn product(k: &Matrix6<f64>, x: &[f64; 6]) -> [f64; 6] {
     sum
 }
 
-/// Whether two matrices are equal, entry by entry without a branch: what is not written again need not go back to memory.
-#[inline(always)]
-fn is_same(a: &Matrix6<f64>, b: &Matrix6<f64>) -> bool {
-    a.as_slice().iter().zip(b.as_slice()).fold(true, |same, (a, b)| same & (a == b))
-}
-
 impl CrossSection for Stiffness {
     fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
         let mut response = Response::zero();
-        self.answer(at, strain, request, &mut response)?;
+        self.answer(at, strain, Active::all(), request, &mut response)?;
         Ok(response)
     }
 
@@ -113,12 +111,18 @@ impl CrossSection for Stiffness {
         request: Request,
         out: &mut [Response],
     ) -> Result<()> {
+        self.respond_active(sites, Active::all(), request, out)
+    }
+
+    fn respond_active(
+        &self,
+        sites: &[(Station, Strain)],
+        active: Active,
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
         for ((at, strain), out) in sites.iter().zip(out) {
-            if request != Request::Tangent {
-                *out = Response::zero();
-            }
-            self.answer(at, strain, request, out)?;
-            out.wrench_rate = Wrench::zero();
+            self.answer(at, strain, active, request, out)?;
         }
         Ok(())
     }

@@ -99,8 +99,10 @@ pub(super) fn first_elements<B: Elastic, const S: usize>(
     state: &Configuration<S>,
 ) -> usize {
     let length = mesh.rod.body().length();
-    let stiffness = state.response.iter().flatten().flat_map(|r| [r.tangent[(0, 0)], r.tangent[(1, 1)]]);
-    let bending = stiffness.fold(f64::INFINITY, |least, k| least.min(k.abs()));
+    let constraint = mesh.rod.body().constraint();
+    let diagonals = state.response.iter().flatten();
+    let diagonals = diagonals.map(|r| constraint.diagonal_of_free(&r.tangent, f64::INFINITY));
+    let bending = diagonals.fold(f64::INFINITY, |least, [x, y, ..]| least.min(x.abs()).min(y.abs()));
     let force = state.node_wrench.iter().fold(0.0, |size: f64, w| size.max(w.force.norm()));
     let moment = state.node_wrench.last().map_or(0.0, |w| w.moment.norm());
     let turn = (0..mesh.elements())

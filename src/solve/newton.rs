@@ -211,8 +211,12 @@ impl Newton<'_> {
 /// Units for the chain: the rod's length, and the force its bending stiffness makes of it.
 pub(crate) fn scale<B: Elastic, const S: usize>(mesh: &Mesh<'_, B, S>, state: &Configuration<S>) -> Scale {
     let length = mesh.rod.body().length();
-    let k = &state.response[0][0].tangent;
-    let bending = k[(0, 0)].abs().max(k[(1, 1)].abs()).max(f64::MIN_POSITIVE);
+    let [x, y, torsion, shears @ ..] =
+        mesh.rod.body().constraint().diagonal_of_free(&state.response[0][0].tangent, 0.0).map(f64::abs);
+    // a rod that cannot bend has what else it has
+    let of_force = shears.into_iter().fold(0.0, f64::max) * (length * length);
+    let bending = [x.max(y), torsion, of_force, f64::MIN_POSITIVE].into_iter().find(|k| *k > 0.0);
+    let bending = bending.unwrap_or(f64::MIN_POSITIVE);
     Scale { length, force: bending / (length * length) }
 }
 

@@ -7,9 +7,9 @@ use hyperrod::section::{Circle, Composite, CrossSection, Linear, Rectangle, Sect
 use crate::oracle::*;
 
 /// The batch sums point by point, one at a time over lanes: up to 91 points, each rounded some tens of times.
-const ROUNDING: f64 = 1e-14;
+pub const ROUNDING: f64 = 1e-14;
 
-fn sites(count: usize, at: impl Fn(f64) -> Station) -> Vec<(Station, Strain)> {
+pub fn sites(count: usize, at: impl Fn(f64) -> Station) -> Vec<(Station, Strain)> {
     (0..count)
         .map(|k| {
             let k = k as f64;
@@ -19,7 +19,7 @@ fn sites(count: usize, at: impl Fn(f64) -> Station) -> Vec<(Station, Strain)> {
         .collect()
 }
 
-fn difference(a: &Response, b: &Response) -> f64 {
+pub fn difference(a: &Response, b: &Response) -> f64 {
     let ratio = |error: f64, scale: f64| if error == 0.0 { 0.0 } else { error / scale };
     let six = |v: [f64; 6]| (0..6).map(|i| if i < 3 { v[i] * 100.0 } else { v[i] }.abs()).fold(0.0, f64::max);
     let k = |r: &Response| r.tangent.map_with_location(|i, j, k| k * [1e2, 1.0][i / 3] * [1e2, 1.0][j / 3]);
@@ -29,7 +29,7 @@ fn difference(a: &Response, b: &Response) -> f64 {
         .max(ratio(six((a.wrench_rate - b.wrench_rate).to_array()), six(b.wrench_rate.to_array())))
 }
 
-fn sections() -> Vec<(&'static str, Box<dyn CrossSection>)> {
+pub fn sections() -> Vec<(&'static str, Box<dyn CrossSection>)> {
     let neo_hookean = || NeoHookean::new(170e3, 400e3).unwrap();
     let circle = || Circle::new(0.01);
     let graded = hyperrod::isotropic!(|i, at| i.i1_excess() * (at.s * 3.0 + at.x * 20.0 + 1.0) * 1e5);

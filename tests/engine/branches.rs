@@ -235,3 +235,18 @@ fn a_strain_that_is_no_number_is_refused_by_laws_that_do_not_look_at_it() {
         }
     }
 }
+
+/// A closure runs on four lanes, and its sums on eight where the machine has them.
+#[test]
+fn a_closure_that_failed_leaves_nothing_behind() {
+    let law = local(|f, _| hyperrod::num_dual::DualNum::sqrt(&f.gamma().z));
+    let at = Station::straight(0.0);
+    let (stretched, compressed) = ([0.0, 0.0, 0.0, 0.0, 0.0, 0.1], [0.0, 0.0, 0.0, 0.0, 0.0, -0.1]);
+    for count in 1..=17 {
+        let points = points(count, false);
+        let energy = |strain| law.integrate(&points, &at, &Strain::from_array(strain), Request::Tangent);
+        let before = energy(stretched).unwrap();
+        assert!(energy(compressed).is_err(), "no root of a negative stretch");
+        assert_eq!(energy(stretched).unwrap(), before, "{count} points");
+    }
+}

@@ -5,7 +5,7 @@ use super::*;
 use crate::lie::Strain;
 use crate::lie::Twist;
 use crate::material::{
-    Gent, HolzapfelGasserOgden, LinearElastic, Material, MooneyRivlin, NeoHookean, Ogden, PointRates,
+    Active, Gent, HolzapfelGasserOgden, LinearElastic, Material, MooneyRivlin, NeoHookean, Ogden, PointRates,
     Reference, ReferencePressure, Response,
 };
 use crate::scalar::lane::with_each;
@@ -154,5 +154,46 @@ fn a_batch_answers_alike_on_every_kind_of_lane() {
                 assert!(error < ROUNDING, "{request:?} on {lane} lanes: {error:.1e}");
             }
         });
+    }
+}
+
+/// Three of the strains at a time, in the plane and without shear and extension, as entries of the full response.
+#[test]
+fn a_response_in_three_strains_is_alike_on_every_kind_of_lane() {
+    let fibres = crate::local!(|f, at| {
+        let g = f.gamma();
+        (g.z * g.z + g.x * g.y * 0.2 + g.x * g.z * g.z + g.y * g.y) * (at.x * 20.0 + at.y * 10.0 + 1.0) * 1e5
+    });
+    let laws: [(&str, &dyn Material); 4] = [
+        ("artery", &HolzapfelGasserOgden::artery([170e3, 500e3], [80e3, 1.2], 0.5).unwrap()),
+        ("neo-Hookean", &NeoHookean::new(170e3, 400e3).unwrap()),
+        ("fibres", &fibres),
+        ("linear elastic", &LinearElastic::new(1e6, 3e5).unwrap()),
+    ];
+    let points = Points { rates: None, ..points(19) };
+    for places in [[1, 3, 5], [0, 1, 2]] {
+        let active = Active::of(std::array::from_fn(|i| places.contains(&i)));
+        for count in [4, 8, 19] {
+            let sites: Vec<_> = (0..count).map(|k| (stations()[0], strains()[k % 3])).collect();
+            for (name, law) in laws {
+                with_each(|lane| {
+                    let mut out = vec![Response::zero(); count];
+                    law.integrate_active(&points, &sites, active, Request::Tangent, &mut out).unwrap();
+                    for ((at, strain), answer) in sites.iter().zip(&out) {
+                        let mut alone = law.integrate(&points, at, strain, Request::Tangent).unwrap();
+                        let scale = alone;
+                        let mut wrench = alone.wrench.to_array();
+                        for i in places {
+                            wrench[i] = answer.wrench.to_array()[i];
+                            places.iter().for_each(|&j| alone.tangent[(i, j)] = answer.tangent[(i, j)]);
+                        }
+                        (alone.energy, alone.wrench) =
+                            (answer.energy, crate::lie::Wrench::from_array(wrench));
+                        let error = difference(&alone, &scale);
+                        assert!(error < ROUNDING, "{name}, {places:?} on {lane} lanes: {error:.1e}");
+                    }
+                });
+            }
+        }
     }
 }

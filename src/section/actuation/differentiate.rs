@@ -3,17 +3,34 @@
 use super::Actuator;
 use crate::error::{Error, Result};
 use crate::lie::{Strain, Twist, Wrench};
-use crate::material::{Request, Response, Station};
+use crate::material::{Active, Request, Response, Station};
 use crate::scalar::Jet;
 
 /// An [`Actuator`] in `f64`, which can be made into an object.
 pub(super) trait Actuation: Send + Sync {
-    fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response>;
+    fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
+        self.respond_active(at, strain, Active::all(), request)
+    }
+
+    /// What is said about strains that are not active is not to be relied on.
+    fn respond_active(
+        &self,
+        at: &Station,
+        strain: &Strain,
+        active: Active,
+        request: Request,
+    ) -> Result<Response>;
     fn breakpoints(&self) -> Vec<f64>;
 }
 
 impl<A: Actuator> Actuation for A {
-    fn respond(&self, at: &Station, strain: &Strain, request: Request) -> Result<Response> {
+    fn respond_active(
+        &self,
+        at: &Station,
+        strain: &Strain,
+        active: Active,
+        request: Request,
+    ) -> Result<Response> {
         crate::material::check_strain(strain, at.s)?;
         let response = match request {
             Request::Energy => {
@@ -21,6 +38,7 @@ impl<A: Actuator> Actuation for A {
                 Response { energy, ..Response::zero() }
             }
             Request::Wrench => differentiate::<6, 0, _>(self, at, strain),
+            Request::Tangent if active.count() <= 3 => differentiate_in_three(self, at, strain, active),
             Request::Tangent => differentiate::<6, 21, _>(self, at, strain),
             Request::Rate => differentiate::<7, 28, _>(self, at, strain),
         };
@@ -72,5 +90,29 @@ fn differentiate<const N: usize, const M: usize, A: Actuator>(
         }
     }
     response.wrench_rate = Wrench::from_array(rate);
+    response
+}
+
+/// Value, gradient and Hessian in no more than three components of Δξ.
+fn differentiate_in_three<A: Actuator>(
+    actuator: &A,
+    at: &Station,
+    strain: &Strain,
+    active: Active,
+) -> Response {
+    let mut xi = (at.reference.twist + *strain).to_array().map(Jet::<f64, 3, 6>::constant);
+    let places = || active.places().take(3);
+    for (variable, i) in places().enumerate() {
+        xi[i] = xi[i].with_slope(variable, 1.0);
+    }
+    let u = actuator.energy(&Twist::from_array(xi), Jet::constant(at.s));
+    let (mut response, mut wrench) = (Response { energy: u.value, ..Response::zero() }, [0.0; 6]);
+    for (r, i) in places().enumerate() {
+        wrench[i] = u.gradient[r];
+        for (c, j) in places().enumerate() {
+            response.tangent[(i, j)] = u.hessian[[[0, 1, 2], [1, 3, 4], [2, 4, 5]][r][c]];
+        }
+    }
+    response.wrench = Wrench::from_array(wrench);
     response
 }

@@ -16,7 +16,7 @@ use super::geometry::{AreaMoments, Geometry};
 use super::{CrossSection, Deformable, Deformed};
 use crate::error::Result;
 use crate::lie::{Strain, Twist};
-use crate::material::{Request, Response, Station};
+use crate::material::{Active, Request, Response, Station};
 use crate::scalar::Scalar;
 use differentiate::Actuation;
 
@@ -107,6 +107,37 @@ impl<C: CrossSection> CrossSection for Actuated<C> {
             total += actuator.respond(at, strain, request)?;
         }
         Ok(total)
+    }
+
+    fn respond_many(
+        &self,
+        sites: &[(Station, Strain)],
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        self.respond_active(sites, Active::all(), request, out)
+    }
+
+    /// The section with all the strains, and then the actuators; one strain at a time where the section refuses one, so that the first of all is named.
+    fn respond_active(
+        &self,
+        sites: &[(Station, Strain)],
+        active: Active,
+        request: Request,
+        out: &mut [Response],
+    ) -> Result<()> {
+        if self.section.respond_active(sites, active, request, out).is_err() {
+            for ((at, strain), out) in sites.iter().zip(out) {
+                *out = self.respond(at, strain, request)?;
+            }
+            return Ok(());
+        }
+        for ((at, strain), out) in sites.iter().zip(out) {
+            for actuator in &self.actuators {
+                *out += actuator.respond_active(at, strain, active, request)?;
+            }
+        }
+        Ok(())
     }
 
     fn adapt_to(&mut self, at: &Station) -> Result<()> {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix6, Vector6};
 
-use super::verdict::{is_conservative, of_free, softening};
+use super::verdict::{is_conservative, softening};
 use crate::body::Elastic;
 use crate::lie::Strain;
 use crate::solve::equilibrium::Configuration;
@@ -97,15 +97,16 @@ fn convex_step<B: Elastic, const S: usize>(
 ) -> Option<Step> {
     let scale = scale(mesh, state);
     let soft = softening(mesh, state).is_some();
-    let (mut model, constraint) = (state.clone(), mesh.rod.body().constraint());
+    let constraint = mesh.rod.body().constraint();
+    let mut model = state.clone();
     while *models > 0 {
         *models -= 1;
         // the model in units of its own stiffness
         let units = Scale { force: scale.force * (1.0 + *mu), ..scale };
         for (modelled, response) in model.response.iter_mut().flatten().zip(state.response.iter().flatten()) {
-            let free = of_free(&response.tangent, &constraint);
-            let stiff = if soft { convex(&free) } else { response.tangent };
-            modelled.tangent = response.tangent + stiff * *mu;
+            let tangent = constraint.of_free(&response.tangent, 1.0);
+            let stiff = if soft { convex(&tangent) } else { tangent };
+            modelled.tangent = tangent + stiff * *mu;
         }
         // a base that may move is held back as well: supports alone need not keep the rod from swinging
         let held_back = Matrix6::from_diagonal(&hold_back(&scale)) * *mu;

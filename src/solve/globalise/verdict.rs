@@ -1,6 +1,6 @@
 use nalgebra::Matrix6;
 
-use crate::body::{Constraint, Elastic};
+use crate::body::Elastic;
 use crate::solve::equilibrium::Configuration;
 use crate::solve::linear::Buffers;
 use crate::solve::mesh::Mesh;
@@ -42,36 +42,19 @@ pub(super) fn softening<B: Elastic, const S: usize>(
     state: &Configuration<S>,
 ) -> Option<f64> {
     let constraint = mesh.rod.body().constraint();
+    let is_definite = |tangent| constraint.of_free(tangent, 1.0).cholesky().is_some();
     let mut definite: Option<&Matrix6<f64>> = None;
     for i in 0..mesh.elements() {
         for k in 0..S {
             let tangent = &state.response[i][k].tangent;
             // most laws are linear: what is the same as before needs no second look
-            let same = definite.is_some_and(|other| is_same(other, tangent));
-            if !same && of_free(tangent, &constraint).cholesky().is_none() {
+            if !definite.is_some_and(|other| is_same(other, tangent)) && !is_definite(tangent) {
                 return Some(mesh.stage_s(i, k));
             }
             definite = Some(tangent);
         }
     }
     None
-}
-
-/// A tangent without what the law says of strains that are fixed: there it is the identity.
-pub(super) fn of_free(tangent: &Matrix6<f64>, constraint: &Constraint) -> Matrix6<f64> {
-    let mut free = *tangent;
-    for (j, _) in constraint.fixed().iter().enumerate().filter(|(_, fixed)| **fixed) {
-        free.row_mut(j).fill(0.0);
-        free.column_mut(j).fill(0.0);
-        free[(j, j)] = 1.0;
-    }
-    free
-}
-
-/// Its diagonal, without bound where a strain is fixed.
-fn stiffnesses(tangent: &Matrix6<f64>, constraint: &Constraint) -> [f64; 6] {
-    let fixed = constraint.fixed();
-    std::array::from_fn(|j| if fixed[j] { f64::INFINITY } else { tangent[(j, j)] })
 }
 
 /// Whether two matrices are equal, entry by entry without a branch.
@@ -114,7 +97,7 @@ fn is_resolved<B: Elastic, const S: usize>(
 ) -> bool {
     let (x, constraint) = (mesh.h(i) / std::f64::consts::PI, mesh.rod.body().constraint());
     state.response[i].iter().zip(&state.stage_wrench[i]).all(|(response, wrench)| {
-        let d = stiffnesses(&response.tangent, &constraint);
+        let d = constraint.diagonal_of_free(&response.tangent, f64::INFINITY);
         let (bending, soft) = (d[0].min(d[1]).min(d[2]), d[3].min(d[4]).min(d[5]));
         let (moment, force) = (0.5 * x * wrench.moment.norm() / bending, wrench.force.norm());
         moment * moment + (force + force * force / soft) * x * x / bending <= SURELY_RESOLVED
@@ -228,7 +211,7 @@ pub(super) fn needed_parts<B: Elastic, const S: usize>(
         let mut most: f64 = 1.0;
         for k in 0..S {
             let (response, wrench) = (&state.response[i][k], &state.stage_wrench[i][k]);
-            let d = stiffnesses(&response.tangent, &constraint);
+            let d = constraint.diagonal_of_free(&response.tangent, f64::INFINITY);
             let (bending, shear) = (d[0].min(d[1]).min(d[2]), d[3].min(d[4]));
             let n = wrench.force.norm();
             let along = wrench.force.z;
