@@ -91,6 +91,10 @@ impl Stiffness {
 fn product(k: &Matrix6<f64>, x: &[f64; 6]) -> [f64; 6] {
     let mut sum = [0.0; 6];
     for (column, x) in k.as_slice().chunks_exact(6).zip(x) {
+        // as the strains that a rod cannot have
+        if *x == 0.0 {
+            continue;
+        }
         for (sum, k) in sum.iter_mut().zip(column) {
             *sum += k * x;
         }

@@ -316,18 +316,21 @@ impl<const S: usize> Configuration<S> {
         if constraint.is_none() {
             return;
         }
-        let fixed = constraint.fixed();
-        for (responses, balances) in self.response.iter_mut().zip(&self.stage_wrench) {
-            for (response, balance) in responses.iter_mut().zip(balances) {
+        let (responses, balances) = (self.response.as_flattened_mut(), self.stage_wrench.as_flattened());
+        let mut each = |take: &dyn Fn(&mut Wrench, &Wrench)| {
+            responses
+                .iter_mut()
+                .zip(balances)
+                .for_each(|(response, balance)| take(&mut response.wrench, balance));
+        };
+        match constraint.fixed() {
+            [false, false, false, true, true, true] => each(&|law, balance| law.force = balance.force),
+            fixed => each(&|law, balance| {
                 for i in 0..3 {
-                    if fixed[i] {
-                        response.wrench.moment[i] = balance.moment[i];
-                    }
-                    if fixed[3 + i] {
-                        response.wrench.force[i] = balance.force[i];
-                    }
+                    law.moment[i] = if fixed[i] { balance.moment[i] } else { law.moment[i] };
+                    law.force[i] = if fixed[3 + i] { balance.force[i] } else { law.force[i] };
                 }
-            }
+            }),
         }
     }
 }
