@@ -2,12 +2,14 @@
 //!
 //! `cargo run --release --example constrained_speed`
 //!
-//! A linear rod under a dead transverse force with PL²/EI = 10, 32 elements of order 6; the fastest tenth of interleaved solves, so that what else the machine does is left out. `-- --quick` repeats less.
+//! A linear rod under a dead transverse force with PL²/EI = 10, 32 elements of order 6, and a round neo-Hookean one whose section is integrated; the fastest
+//! tenth of interleaved solves, so that what else the machine does is left out. `-- --quick` repeats less.
 #![allow(clippy::print_stdout)]
 
 use hyperrod::body::Constraint;
 use hyperrod::load::{DeadLoad, DeadWrench};
-use hyperrod::section::Stiffness;
+use hyperrod::material::NeoHookean;
+use hyperrod::section::{Circle, CrossSection, Section, Stiffness};
 use hyperrod::solve::{Order, Workspace};
 use hyperrod::{Body, Pose, Rod, Statics, Wrench};
 use nalgebra::{Vector3, vector};
@@ -15,21 +17,33 @@ use std::hint::black_box;
 use std::time::Instant;
 
 /// Name, rod, the memory of its solves, and their times in µs.
-type Case = (&'static str, Rod<Body<Stiffness>>, Workspace, Vec<f64>);
+type Case<C> = (&'static str, Rod<Body<C>>, Workspace, Vec<f64>);
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let repeats = if std::env::args().any(|a| a == "--quick") { 101 } else { 2001 };
-    let [kirchhoff, planar, _] = compare("a dead force on the tip", repeats, false)?;
-    let [heavy_kirchhoff, heavy_planar, _] = compare("its weight as well", repeats, true)?;
+    let linear = || Stiffness::diagonal([1.0, 1.0, 0.8, 1e4, 1e4, 3e4]);
+    // EI = 1 N m², like the other
+    let law = NeoHookean::new(17e6, 40e6)?;
+    let rubber = || Section::new(Circle::new(0.0115), law);
+    let [kirchhoff, planar, _] = compare("a dead force on the tip", linear, repeats, false)?;
+    let [heavy_kirchhoff, heavy_planar, _] = compare("its weight as well", linear, repeats, true)?;
+    let [soft_kirchhoff, soft_planar, _] =
+        compare("a neo-Hookean rod, both loads", rubber, repeats / 2, true)?;
     println!(
         "constrained_speed: times cheaper, tip force: planar {planar:.2}, Kirchhoff {kirchhoff:.2}; \
-         with weight: planar {heavy_planar:.2}, Kirchhoff {heavy_kirchhoff:.2}"
+         with weight: planar {heavy_planar:.2}, Kirchhoff {heavy_kirchhoff:.2}; \
+         neo-Hookean: planar {soft_planar:.2}, Kirchhoff {soft_kirchhoff:.2}"
     );
     Ok(())
 }
 
 /// Prints a table, and returns how many times cheaper than free the constrained rods are.
-fn compare(title: &str, repeats: usize, heavy: bool) -> Result<[f64; 3], Box<dyn std::error::Error>> {
+fn compare<C: CrossSection>(
+    title: &str,
+    section: impl Fn() -> hyperrod::Result<C>,
+    repeats: usize,
+    heavy: bool,
+) -> Result<[f64; 3], Box<dyn std::error::Error>> {
     let both = Constraint::kirchhoff().and(Constraint::planar());
     let named = [
         ("free", Constraint::none()),
@@ -37,10 +51,9 @@ fn compare(title: &str, repeats: usize, heavy: bool) -> Result<[f64; 3], Box<dyn
         ("planar", Constraint::planar()),
         ("planar Kirchhoff", both),
     ];
-    let mut cases: Vec<Case> = Vec::new();
+    let mut cases: Vec<Case<C>> = Vec::new();
     for (name, constraint) in named {
-        let section = Stiffness::diagonal([1.0, 1.0, 0.8, 1e4, 1e4, 3e4])?;
-        let body = Body::new(1.0, section)?.with_constraint(constraint);
+        let body = Body::new(1.0, section()?)?.with_constraint(constraint);
         let force = DeadWrench::force(vector![10.0, 0.0, 0.0])?;
         let mut rod = Rod::clamped(body, Pose::identity()).with_tip_load(force);
         if heavy {
