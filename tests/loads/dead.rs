@@ -69,7 +69,7 @@ fn a_load_that_says_it_is_dead_gives_what_it_gives_when_asked_every_time() {
             let solve = |silent: bool| {
                 let body = bar().with_constraint(constraint);
                 let force = DeadWrench::force(vector![0.05, 0.0, 0.0]).unwrap();
-                let rod = Rod::between(body, Support::clamped(Pose::identity()), tip.clone());
+                let rod = Rod::between(body, Support::clamped(Pose::identity()), tip);
                 let rod = rod.with_point_load(0.3, force).unwrap();
                 statics().solve(&loaded(rod, silent, out_of_plane)).unwrap()
             };
