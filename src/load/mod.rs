@@ -14,7 +14,9 @@
 //! | [`distributed`], [`distributed_on`], [`at_tip`]: a closure that gives the wrench | length, tip | what it asks for | no |
 //! | [`potential`], [`potential_at_tip`]: a closure that gives the energy | length, tip | | yes |
 //!
-//! What acts by the strain of the rod, as tendons and pressure chambers, is an [`Actuator`](crate::section::Actuator) of the section.
+//! A load that depends on the strain twist and its rate along the rod is −(Ā ξ′ + B̄): it gives a [`RateLoad`] in [`Load::rate`].
+//!
+//! What acts by the strain of the rod and has an energy, as tendons and pressure chambers, is an [`Actuator`](crate::section::Actuator) of the section.
 //!
 //! What lives here knows bodies and poses; it knows no element and no solver.
 
@@ -26,6 +28,7 @@ mod follower_wrench;
 mod foundation;
 mod gravity;
 mod payload;
+mod rate;
 
 pub use buoyancy::Buoyancy;
 pub use closure::{
@@ -38,11 +41,12 @@ pub use follower_wrench::FollowerWrench;
 pub use foundation::ElasticFoundation;
 pub use gravity::Gravity;
 pub use payload::Payload;
+pub use rate::RateLoad;
 
 use nalgebra::{Matrix6, Vector3};
 
 use crate::error::{Error, Result};
-use crate::lie::{Pose, Wrench};
+use crate::lie::{Pose, Twist, Wrench};
 
 /// A wrench with its derivative in a displacement ζ of the frame it is given in (g → g exp ζ^).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,6 +113,51 @@ pub trait Load<B: ?Sized>: Send + Sync {
     /// # Errors
     /// Where the load or what it asks of the body is not defined.
     fn at(&self, body: &B, s: f64, pose: &Pose) -> Result<LoadWrench>;
+
+    /// What of the load depends on the strain twist ξ and on its rate along the rod: the whole load is that of [`at`](Self::at) less Ā ξ′ + B̄. `None`, the
+    /// default, where nothing does; a load that gives it gives it everywhere.
+    ///
+    /// A solve takes ξ′ from the [strong form](crate::Rod::strain_rate), so that such a load is one of pose and strain and the order of convergence is kept;
+    /// its derivative in these, which has third derivatives of the energy in it, is taken by central differences. A rod with [fixed
+    /// strains](crate::body::Constraint) has no strong form and is refused, and so is motion. What acts through the strain and has an energy is better
+    /// an [`Actuator`](crate::section::Actuator): that knows its conditions at the ends too.
+    ///
+    /// ```
+    /// use hyperrod::load::{DeadWrench, Load, LoadWrench, RateLoad};
+    /// use hyperrod::{Body, Pose, Rod, Statics, Twist, Wrench, section::Stiffness};
+    /// use nalgebra::{Matrix6, Vector3, vector};
+    ///
+    /// /// Water that flows through a hose with the momentum flux ρ A v², N, and pushes outwards where it is turned: f = −ρ A v² ω × e₃.
+    /// struct Flow(f64);
+    ///
+    /// impl<B: ?Sized> Load<B> for Flow {
+    ///     fn at(&self, _body: &B, _s: f64, _pose: &Pose) -> hyperrod::Result<LoadWrench> {
+    ///         Ok(LoadWrench { wrench: Wrench::zero(), tangent: Matrix6::zeros(), potential: None })
+    ///     }
+    ///     fn rate(&self, _: &B, _: f64, _: &Pose, xi: &Twist) -> hyperrod::Result<Option<RateLoad>> {
+    ///         let force = xi.angular.cross(&Vector3::z()) * self.0;
+    ///         Ok(Some(RateLoad { a_bar: Matrix6::zeros(), b_bar: Wrench::new(Vector3::zeros(), force) }))
+    ///     }
+    /// }
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let tip = |flux: f64| -> Result<f64, Box<dyn std::error::Error>> {
+    ///     let body = Body::new(1.0, Stiffness::diagonal([1.0, 1.0, 0.8, 1e4, 1e4, 3e4])?)?;
+    ///     let rod = Rod::clamped(body, Pose::identity())
+    ///         .with_load(Flow(flux))
+    ///         .with_tip_load(DeadWrench::force(vector![0.5, 0.0, 0.0])?);
+    ///     Ok(Statics::default().solve(&rod)?.tip().pose.position.x)
+    /// };
+    /// assert!(tip(0.5)? > 1.05 * tip(0.0)?); // bends further
+    /// # Ok(()) }
+    /// ```
+    ///
+    /// # Errors
+    /// As [`at`](Self::at).
+    fn rate(&self, body: &B, s: f64, pose: &Pose, xi: &Twist) -> Result<Option<RateLoad>> {
+        let _ = (body, s, pose, xi);
+        Ok(None)
+    }
 
     /// The force per length in space, N/m, of a load that is *dead* at s: a force through the axis that keeps its direction and size whatever the rod does,
     /// so that [`at`](Self::at) gives (0, Rᵀ f) and the potential −f·p. `None`, the default, for any other.

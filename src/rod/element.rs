@@ -219,7 +219,9 @@ impl<const S: usize> ElementState<'_, S> {
         match &self.load {
             StageLoads::None => Vector3::zeros(),
             StageLoads::Dead(forces) => forces[k],
-            StageLoads::Any(loads) => self.kinematics.stage[k].rotation * loads[k].wrench.force,
+            StageLoads::Any(loads) | StageLoads::Strained(loads, _) => {
+                self.kinematics.stage[k].rotation * loads[k].wrench.force
+            }
         }
     }
 
@@ -292,6 +294,13 @@ impl<const S: usize> Linearisation<S> {
                 wrench_from_strain[m] -= factor * g_b[m];
             }
             wrench_from_zeta -= factor * e;
+            if let Some(by_strain) = state.load.by_strain(l) {
+                let at_node = inverse.transpose() * by_strain;
+                for k in 0..S {
+                    stage[k][l] += transpose[k] * (state.h * table.a[k][l]) * at_node;
+                }
+                wrench_from_strain[l] -= factor * at_node;
+            }
         }
         Self {
             stage,

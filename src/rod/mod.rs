@@ -20,5 +20,7 @@ mod strong_form;
 pub(crate) mod support;
 
 pub use scene::Rod;
-pub use strong_form::{Motion, RateLoad, SectionState, StrainRate};
+pub use strong_form::{Motion, SectionState, StrainRate};
+
+pub use crate::load::RateLoad;
 pub use support::{Condition, Freedom, Support};

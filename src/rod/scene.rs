@@ -134,6 +134,12 @@ impl<B: Elastic> Rod<B> {
         &self.tip.support
     }
 
+    /// Whether a load depends on the strain and its rate; one that fails to say so fails again in a solve.
+    pub(crate) fn has_rate_loads(&self) -> bool {
+        let xi = self.body.reference(0.0).twist;
+        self.loads.iter().any(|load| !matches!(load.rate(&self.body, 0.0, self.base(), &xi), Ok(None)))
+    }
+
     pub(crate) fn loads(&self) -> &[Box<dyn Load<B>>] {
         &self.loads
     }

@@ -1,4 +1,4 @@
-use nalgebra::Vector3;
+use nalgebra::{Matrix6, Vector3};
 
 use super::element::Kinematics;
 use crate::lie::{Pose, Wrench};
@@ -13,6 +13,8 @@ pub(crate) enum StageLoads<'a, const S: usize> {
     Dead(&'a [Vector3<f64>; S]),
     /// Whatever they are, in the frames of the stages.
     Any(&'a [LoadWrench; S]),
+    /// The same, with their derivatives in the strain of the stage.
+    Strained(&'a [LoadWrench; S], &'a [Matrix6<f64>; S]),
 }
 
 impl<const S: usize> StageLoads<'_, S> {
@@ -32,7 +34,7 @@ impl<const S: usize> StageLoads<'_, S> {
                 }
                 Some(loads)
             }
-            Self::Any(loads) => {
+            Self::Any(loads) | Self::Strained(loads, _) => {
                 let mut wrenches = [Wrench::zero(); S];
                 // without copying the tangents
                 for (wrench, load) in wrenches.iter_mut().zip(*loads) {
@@ -48,7 +50,12 @@ impl<const S: usize> StageLoads<'_, S> {
         match self {
             Self::None => None,
             Self::Dead(forces) => Some(LoadWrench::dead(pose, &forces[l])),
-            Self::Any(loads) => Some(loads[l]),
+            Self::Any(loads) | Self::Strained(loads, _) => Some(loads[l]),
         }
+    }
+
+    /// Its derivative in the strain there, where it has one.
+    pub(crate) fn by_strain(&self, l: usize) -> Option<&Matrix6<f64>> {
+        if let Self::Strained(_, by_strain) = self { Some(&by_strain[l]) } else { None }
     }
 }

@@ -6,6 +6,7 @@ use super::Rod;
 use crate::body::Elastic;
 use crate::error::{Error, Result};
 use crate::lie::{Pose, Strain, Twist, Wrench};
+use crate::load::RateLoad;
 use crate::material::Request;
 
 /// A section of a rod as the strong form sees it.
@@ -41,24 +42,6 @@ impl Motion {
     }
 }
 
-/// A load per length that depends on the rate of the strain twist, f̄ = −(Ā ξ′ + B̄).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RateLoad {
-    /// Ā, rows and columns (angular, linear).
-    #[doc(alias = "A_bar")]
-    pub a_bar: Matrix6<f64>,
-    /// B̄.
-    #[doc(alias = "B_bar")]
-    pub b_bar: Wrench,
-}
-
-impl RateLoad {
-    /// No load.
-    pub fn none() -> Self {
-        Self { a_bar: Matrix6::zeros(), b_bar: Wrench::zero() }
-    }
-}
-
 /// What the strong form gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StrainRate {
@@ -82,8 +65,8 @@ impl<B: Elastic> Rod<B> {
     /// + \frac{\partial\Psi}{\partial\Delta\xi}\,(\xi^*)'\Bigr)
     /// ```
     ///
-    /// The last term is that of a reference that varies along s. Actuators of the section are in Ψ; the other loads are B̄ = −f̄ with Ā = 0, and
-    /// [`strain_rate_with`](Self::strain_rate_with) takes one that has both. The wrench at the base, marched by this to the tip, is a solution where it
+    /// The last term is that of a reference that varies along s. Actuators of the section are in Ψ; the other loads are B̄ = −f̄ with Ā = 0, but for those
+    /// that give [both](crate::load::Load::rate); [`strain_rate_with`](Self::strain_rate_with) takes one more. The wrench at the base, marched by this to the tip, is a solution where it
     /// arrives at the load on the tip.
     ///
     /// ```
@@ -110,6 +93,31 @@ impl<B: Elastic> Rod<B> {
     /// # Errors
     /// As [`strain_rate`](Self::strain_rate).
     pub fn strain_rate_with(&self, at: &SectionState, load: &RateLoad) -> Result<StrainRate> {
+        let mut loads = self.rate_load(at, 1.0)?;
+        loads.add_scaled(load, 1.0);
+        self.strain_rate_under(at, &loads, 1.0)
+    }
+
+    /// The wrench per length of the loads that depend on ξ′, all loads taken `factor` times.
+    pub(crate) fn rate_wrench(&self, at: &SectionState, factor: f64) -> Result<Wrench> {
+        let load = self.rate_load(at, factor)?;
+        let rate = self.strain_rate_under(at, &load, factor)?;
+        Ok(-(Wrench::from_vector(&(load.a_bar * rate.twist.to_vector())) + load.b_bar))
+    }
+
+    /// The sum of (Ā, B̄) of the loads.
+    fn rate_load(&self, at: &SectionState, factor: f64) -> Result<RateLoad> {
+        let (body, mut sum) = (self.body(), RateLoad::none());
+        let xi = body.reference(at.s).twist + at.strain;
+        for own in self.loads() {
+            if let Some(load) = own.rate(body, at.s, &at.pose, &xi)? {
+                sum.add_scaled(&load, factor);
+            }
+        }
+        Ok(sum)
+    }
+
+    fn strain_rate_under(&self, at: &SectionState, load: &RateLoad, factor: f64) -> Result<StrainRate> {
         let body = self.body();
         let fixed = body.constraint().fixed().iter().filter(|fixed| **fixed).count();
         if fixed > 0 {
@@ -122,7 +130,7 @@ impl<B: Elastic> Rod<B> {
         let xi = reference.twist + at.strain;
         let mut balance = response.wrench.ad_transpose(&xi) - response.wrench_rate + load.b_bar;
         for own in self.loads() {
-            balance -= own.at(body, at.s, &at.pose)?.wrench;
+            balance -= own.at(body, at.s, &at.pose)?.wrench * factor;
         }
         if let Some(motion) = &at.motion {
             balance += motion.inertial_wrench();

@@ -1,6 +1,6 @@
 //! The residual of a rod on a mesh, and its linearisation, for a given set of stage strains.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix6, Vector3};
 
 use super::mesh::Mesh;
 use super::unknowns::{StageStrains, Unknowns};
@@ -31,6 +31,8 @@ pub(crate) struct Configuration<const S: usize> {
     pub(crate) kinematics: Vec<Kinematics<f64, S>>,
     /// One entry an element, or none at all for a rod without distributed loads, or with dead ones alone.
     pub(crate) loads: Vec<[LoadWrench; S]>,
+    /// Their derivatives in the strains of the stages, where there is one that depends on these.
+    pub(crate) by_strain: Vec<[Matrix6<f64>; S]>,
     /// Where all distributed loads are dead, their forces in the frames of the first nodes of the elements.
     pub(crate) dead: Vec<[Vector3<f64>; S]>,
     pub(crate) base_load: LoadWrench,
@@ -74,6 +76,7 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
         into.response.resize(n, [Response::zero(); S]);
         let (loaded, dead) = (!self.rod.loads().is_empty(), !self.dead.is_empty());
         into.loads.resize(if loaded && !dead { n } else { 0 }, [LoadWrench::none(); S]);
+        into.by_strain.resize(if self.is_rated { n } else { 0 }, [Matrix6::zeros(); S]);
         into.dead.resize(self.dead.len(), [Vector3::zeros(); S]);
         for i in 0..n {
             if i % ELEMENTS == 0 {
@@ -91,6 +94,10 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
                 }
             } else if loaded {
                 self.stage_loads(i, &into.node_pose[i], motion, &mut into.loads[i])?;
+                if let Some(by_strain) = into.by_strain.get_mut(i) {
+                    let (strains, loads) = (&unknowns.strains[i], &mut into.loads[i]);
+                    self.rate_loads(i, strains, &into.node_pose[i], motion, (loads, by_strain))?;
+                }
             }
             into.node_pose[i + 1] = into.node_pose[i] * motion.end;
             if let Some(j) = self.joint_at(i + 1) {
@@ -143,7 +150,7 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
                 before = state.wrench;
             }
             let (motion, h, loads) =
-                (&into.kinematics[i], self.h(i), stage_loads(&into.dead, &into.loads, i));
+                (&into.kinematics[i], self.h(i), stage_loads(&into.dead, &into.loads, &into.by_strain, i));
             if independent {
                 let start = &into.node_wrench[i];
                 let (stage, end) = motion.wrenches_from_start(&self.table, start, loads.at_node(motion), h);
@@ -266,12 +273,14 @@ impl<B: Elastic, const S: usize> Mesh<'_, B, S> {
 fn stage_loads<'a, const S: usize>(
     dead: &'a [[Vector3<f64>; S]],
     any: &'a [[LoadWrench; S]],
+    by_strain: &'a [[Matrix6<f64>; S]],
     i: usize,
 ) -> StageLoads<'a, S> {
-    match (dead.get(i), any.get(i)) {
-        (Some(dead), _) => StageLoads::Dead(dead),
-        (None, Some(loads)) => StageLoads::Any(loads),
-        (None, None) => StageLoads::None,
+    match (dead.get(i), any.get(i), by_strain.get(i)) {
+        (Some(dead), ..) => StageLoads::Dead(dead),
+        (None, Some(loads), None) => StageLoads::Any(loads),
+        (None, Some(loads), Some(by_strain)) => StageLoads::Strained(loads, by_strain),
+        (None, None, _) => StageLoads::None,
     }
 }
 
@@ -290,6 +299,7 @@ impl<const S: usize> Default for Configuration<S> {
             response: Vec::new(),
             kinematics: Vec::new(),
             loads: Vec::new(),
+            by_strain: Vec::new(),
             dead: Vec::new(),
             base_load: LoadWrench::none(),
             tip_load: LoadWrench::none(),
@@ -308,7 +318,7 @@ impl<const S: usize> Configuration<S> {
     /// The distributed loads of element i.
     #[inline(always)]
     pub(crate) fn stage_loads(&self, i: usize) -> StageLoads<'_, S> {
-        stage_loads(&self.dead, &self.loads, i)
+        stage_loads(&self.dead, &self.loads, &self.by_strain, i)
     }
 
     /// The law says nothing about strains that are fixed: the wrench that goes with them is what the balance asks for.

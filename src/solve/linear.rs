@@ -280,6 +280,7 @@ pub(super) fn kind_of_elements<B: Elastic, const S: usize>(
     let plane = mesh.is_planar && inside() && lie_there();
     let none = if dead.is_empty() { Loads::None } else { Loads::Dead };
     let kinds = loads.iter().map(Loads::of);
+    let none = if state.by_strain.is_empty() { none } else { Loads::Placed };
     let loads = kinds.fold(none, |all, one| if one > all { one } else { all });
     Kind { constraint: mesh.rod.body().constraint(), plane: plane && loads < Loads::Placed, loads }
 }

@@ -30,6 +30,8 @@ pub(crate) struct Mesh<'a, B, const S: usize> {
     pub(crate) is_planar: bool,
     /// The sum of all loads at the stages where each of them is [dead](crate::load::Load::dead_force), in space; else none, as without loads.
     pub(crate) dead: Vec<[Vector3<f64>; S]>,
+    /// Whether there is a load that depends on the strain [and its rate](crate::load::Load::rate).
+    pub(crate) is_rated: bool,
     /// Where a solve starts.
     pub(crate) start: Start,
     /// What supports need not hold.
@@ -93,6 +95,7 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
             reference: Vec::new(),
             is_planar: false,
             dead: Vec::new(),
+            is_rated: false,
             start,
             redundant: None,
             load_factor: 1.0,
@@ -102,6 +105,7 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
         mesh.reference = mesh.places.iter().map(twists).collect();
         mesh.is_planar =
             planar::keeps(&rod.body().constraint()) && planar::contains(mesh.reference.as_flattened());
+        mesh.is_rated = rod.has_rate_loads();
         mesh.dead = mesh.dead_forces().unwrap_or_default();
         if !mesh.is_cantilever() {
             mesh.start = mesh.placed();
@@ -111,7 +115,7 @@ impl<'a, B: Elastic, const S: usize> Mesh<'a, B, S> {
 
     /// See [`dead`](Self::dead). A load that fails does so again, with its error, when it is asked in full.
     fn dead_forces(&self) -> Option<Vec<[Vector3<f64>; S]>> {
-        if self.rod.loads().is_empty() {
+        if self.rod.loads().is_empty() || self.is_rated {
             return None;
         }
         let mut all = vec![[Vector3::zeros(); S]; self.elements()];

@@ -20,6 +20,7 @@ mod mesh;
 mod model_ladder;
 mod newton;
 mod path;
+mod rate_loads;
 mod redundant;
 mod report;
 mod rigid;

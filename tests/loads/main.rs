@@ -10,6 +10,7 @@ mod shooting;
 mod dead;
 mod derivatives;
 mod messages;
+mod rate;
 mod solved;
 mod strong_form;
 mod tendons;

@@ -42,6 +42,13 @@ impl<B: Movable> Scene<'_, B> {
                 return Err(Error::NotModelled { what, solver: "dynamics" });
             }
         }
+        let (body, base) = (self.rod.body(), self.rod.base());
+        let xi = body.reference(0.0).twist;
+        let mut timed = self.loads.iter().map(|(load, _)| load.rate(body, 0.0, base, &xi));
+        if self.rod.has_rate_loads() || timed.any(|rate| !matches!(rate, Ok(None))) {
+            let what = "a load that depends on the rate of the strain";
+            return Err(Error::NotModelled { what, solver: "dynamics" });
+        }
         Ok(())
     }
 
