@@ -46,9 +46,9 @@
 //! | relaxed section, anticlastic | <!-- quote: models.arm.relaxed_anticlastic.all.error -->1.2e-2 | <!-- quote: models.catheter.relaxed_anticlastic.all.error -->1.0e-5 | <!-- quote: models.steel.relaxed_anticlastic.all.error -->2.1e-6 |
 //! | relaxed section, shear, Kirchhoff | <!-- quote: models.arm.relaxed_shear.kirchhoff.error -->2.7e-2 | <!-- quote: models.catheter.relaxed_shear.kirchhoff.error -->5.7e-6 | <!-- quote: models.steel.relaxed_shear.kirchhoff.error -->1.5e-5 |
 //!
-//! A solve of the arm on 16 elements takes <!-- quote: models.arm.linear_law.planar_kirchhoff.ms -->0.070 ms with the simplest of these, with a linear law and
-//! all strains <!-- quote: models.arm.linear_law.all.ms -->0.13 ms, with a rigid neo-Hookean section
-//! and all strains <!-- quote: models.arm.rigid_E_and_G_matched.all.ms -->0.21 ms, relaxed <!-- quote: models.arm.relaxed_shear.all.ms -->46 ms. So the section
+//! A solve of the arm on 16 elements takes <!-- quote: models.arm.linear_law.planar_kirchhoff.ms -->0.050 ms with the simplest of these, with a linear law and
+//! all strains <!-- quote: models.arm.linear_law.all.ms -->0.11 ms, with a rigid neo-Hookean section
+//! and all strains <!-- quote: models.arm.rigid_E_and_G_matched.all.ms -->0.18 ms, relaxed <!-- quote: models.arm.relaxed_shear.all.ms -->45 ms. So the section
 //! decides the cost, the strains little.
 //!
 //! * **Slender and stiff** (L/r from 100 on, strains of the material below 10⁻³): a linear law and Kirchhoff. Stiffnesses from E, G and the shape
