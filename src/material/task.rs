@@ -2,11 +2,12 @@
 
 use super::active::Active;
 use super::batch::integrate_many;
+use super::blocks::Blocks;
 use super::few::in_lanes;
 use super::few_kernels::{BlocksOfFew, SpansOfFew};
 use super::integrate::{Job, Site, integrate_local};
 use super::response::{Points, Request, Response, Station};
-use super::sectional::integrate_sectional;
+use super::sectional::{Spans, integrate_sectional};
 use super::three::Set;
 use crate::error::Result;
 use crate::lie::Strain;
@@ -47,6 +48,32 @@ impl<'a> Task<'a> {
             Work::One(job) => integrate_local(law, job),
             Work::Many(many) => {
                 integrate_local_many(law, many)?;
+                Ok(Response::ZERO)
+            }
+        }
+    }
+
+    /// As by [`perform`](Self::perform), in all strains whatever is active: for a law that is not to have kernels for few of them compiled.
+    #[doc(hidden)]
+    pub fn perform_in_all(&mut self, law: &dyn Blocks) -> Result<Response> {
+        match &mut self.0 {
+            Work::One(job) => integrate_local(law, job),
+            Work::Many(Many { points, sites, request, out, .. }) => {
+                integrate_many(law, points, sites, *request, out)?;
+                Ok(Response::ZERO)
+            }
+        }
+    }
+
+    /// The same by a law of the strain.
+    #[doc(hidden)]
+    pub fn perform_sectional_in_all(&mut self, law: &dyn Spans) -> Result<Response> {
+        match &mut self.0 {
+            Work::One(job) => integrate_sectional(law, job),
+            Work::Many(Many { points, sites, request, out, .. }) => {
+                one_by_one(sites, out, |at, strain| {
+                    integrate_sectional(law, &Job::new(Site { points, at, strain }, *request))
+                })?;
                 Ok(Response::ZERO)
             }
         }

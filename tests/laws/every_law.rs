@@ -50,6 +50,11 @@ impl<L: Local> Local for AtLocalLevel<L> {
     fn energy_density<D: Scalar>(&self, f: &Deformation<D>, at: &Point<D>) -> D {
         self.0.energy_density(f, at)
     }
+
+    // a law less to compile for few strains
+    fn perform(&self, task: &mut Task<'_>) -> hyperrod::Result<Response> {
+        task.perform_in_all(self)
+    }
 }
 
 /// A law differentiated in Δξ, whatever level it is written at.
@@ -59,6 +64,10 @@ pub struct AtSectionLevel<L>(pub L);
 impl<L: Local> Sectional for AtSectionLevel<L> {
     fn energy_density<D: Scalar>(&self, strain: &Strain<D>, at: &Point<D>) -> D {
         self.0.energy_density(&Deformation::of(strain, at), at)
+    }
+
+    fn perform(&self, task: &mut Task<'_>) -> hyperrod::Result<Response> {
+        task.perform_sectional_in_all(self)
     }
 }
 
