@@ -307,7 +307,9 @@ fn a_section_that_closes_up_of_itself_is_named_with_what_stopped_the_steps() {
         let Reason::StressAtRest { force, strain, then } = failure.reason else { panic!("{failure}") };
         // Ψ(0) = (2 C₁ + 4 C₂) A, of which the tangent, the same number, makes −1; to the rounding of sums of a few points
         assert!((force / (400e3 * PI * 1e-4) - 1.0).abs() < 1e-13 && (strain + 1.0).abs() < 1e-13);
-        let Reason::ShortSteps { limit: 50, fraction, step, .. } = *then else { panic!("{then}") };
+        let Reason::ShortSteps { limit: 50, fraction, step, error } = *then else { panic!("{then}") };
         assert!(fraction < 1.0 && step > 0.0, "{fraction} {step}");
+        let Error::Inadmissible { quantity: "J", value, .. } = error else { panic!("{error}") };
+        assert!(value <= 0.0, "{value}");
     }
 }

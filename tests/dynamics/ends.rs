@@ -59,9 +59,7 @@ fn assert_bending_frequencies(
     for omega in found {
         let nearest = modes.iter().map(|m| (m.angular_frequency() / omega - 1.0).abs());
         let nearest = nearest.fold(f64::INFINITY, f64::min);
-        // with six rigid modes beside them frequencies are known to the rounding of the largest eigenvalue, which no finer mesh makes less
-        let tolerance = if what == "free-free" { 1e-5 } else { 1e-6 };
-        assert!(nearest < tolerance, "{what} {omega}: {nearest:.1e}");
+        assert!(nearest < 1e-6, "{what} {omega}: {nearest:.1e}");
     }
 }
 

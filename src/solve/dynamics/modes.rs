@@ -129,43 +129,63 @@ fn modes_of<B: Movable, const S: usize>(
     Ok(pairs.into_iter().map(shape).collect())
 }
 
-/// The smallest ω² with K q = ω² M q and qᵀ M q = 1, from the largest 1/(ω² + σ) of (K + σM)⁻¹ M: the wanted ones come with all their digits.
+/// ω² and q of a mode.
+type Pair = (f64, DVector<f64>);
+
+/// The smallest ω² with K q = ω² M q and qᵀ M q = 1, in ascending order.
+///
+/// A rigid mode has 1/(ω² + σ) = 1/σ, of whose rounding the others get ω²/σ times as much. The share σ that makes K + σM definite is that small that nothing
+/// might be left of them; where there are rigid modes they are thus found once more, with a share of the size of what is wanted.
 fn eigenpairs(
     stiffness: &DMatrix<f64>,
     mass: &DMatrix<f64>,
     unit: f64,
     free: bool,
     count: usize,
-) -> Result<Vec<(f64, DVector<f64>)>> {
-    let shifts = std::iter::once(0.0).chain((-12..=6).map(|power| 10.0_f64.powi(power) / unit));
-    for shift in shifts {
-        let shifted = stiffness + mass * shift;
-        let scale = shifted.diagonal().map(|d| 1.0 / d.abs().max(f64::MIN_POSITIVE).sqrt());
-        let scaled =
-            |m: &DMatrix<f64>| DMatrix::from_fn(m.nrows(), m.ncols(), |r, c| m[(r, c)] * scale[r] * scale[c]);
-        let Some(factor) = Cholesky::new(scaled(&shifted)) else { continue };
-        // a pivot that is only rounding is no pivot
-        if free && factor.l().diagonal().min() < 1e-6 {
-            continue;
-        }
-        let l = factor.l();
-        let solved = l
-            .solve_lower_triangular(&scaled(mass))
-            .and_then(|half| l.solve_lower_triangular(&half.transpose()));
-        let Some(matrix) = solved else { continue };
-        let eigen = SymmetricEigen::new((&matrix + matrix.transpose()) * 0.5);
-        let mut order: Vec<usize> = (0..matrix.nrows()).collect();
-        order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
-        let pairs = order.into_iter().take(count).filter(|&i| eigen.eigenvalues[i] > 0.0).filter_map(|i| {
-            let mu = eigen.eigenvalues[i];
-            // q = S L⁻ᵀ y has qᵀ M q = μ
-            let y = l.tr_solve_lower_triangular(&eigen.eigenvectors.column(i).into_owned())?;
-            let q = y.component_mul(&scale) / mu.sqrt();
-            Some((1.0 / mu - shift, q))
-        });
-        return Ok(pairs.collect());
+) -> Result<Vec<Pair>> {
+    /// Of the largest ω² wanted; the smallest are then known to a tenth of its rounding.
+    const SHARE: f64 = 0.1;
+    let mut shifts = std::iter::once(0.0).chain((-12..=6).map(|power| 10.0_f64.powi(power) / unit));
+    let found = shifts.find_map(|shift| Some((shift, shifted_pairs(stiffness, mass, shift, free, count)?)));
+    let (shift, pairs) =
+        found.ok_or(Error::Singular { matrix: "stiffness with any share of the mass", s: 0.0 })?;
+    let wanted = SHARE * pairs.last().map_or(0.0, |(omega_squared, _)| *omega_squared);
+    if !(shift > 0.0 && wanted > shift) {
+        return Ok(pairs);
     }
-    Err(Error::Singular { matrix: "stiffness with any share of the mass", s: 0.0 })
+    Ok(shifted_pairs(stiffness, mass, wanted, free, count).unwrap_or(pairs))
+}
+
+/// The same from the largest 1/(ω² + σ) of (K + σM)⁻¹ M; `None` where K + σM is not definite.
+fn shifted_pairs(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    shift: f64,
+    free: bool,
+    count: usize,
+) -> Option<Vec<Pair>> {
+    let shifted = stiffness + mass * shift;
+    let scale = shifted.diagonal().map(|d| 1.0 / d.abs().max(f64::MIN_POSITIVE).sqrt());
+    let scaled =
+        |m: &DMatrix<f64>| DMatrix::from_fn(m.nrows(), m.ncols(), |r, c| m[(r, c)] * scale[r] * scale[c]);
+    let l = Cholesky::new(scaled(&shifted))?.l();
+    // a pivot that is only rounding is no pivot
+    if free && l.diagonal().min() < 1e-6 {
+        return None;
+    }
+    let half = l.solve_lower_triangular(&scaled(mass))?;
+    let matrix = l.solve_lower_triangular(&half.transpose())?;
+    let eigen = SymmetricEigen::new((&matrix + matrix.transpose()) * 0.5);
+    let mut order: Vec<usize> = (0..matrix.nrows()).collect();
+    order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+    let pairs = order.into_iter().take(count).filter(|&i| eigen.eigenvalues[i] > 0.0).filter_map(|i| {
+        let mu = eigen.eigenvalues[i];
+        // q = S L⁻ᵀ y has qᵀ M q = μ
+        let y = l.tr_solve_lower_triangular(&eigen.eigenvectors.column(i).into_owned())?;
+        let q = y.component_mul(&scale) / mu.sqrt();
+        Some((1.0 / mu - shift, q))
+    });
+    Some(pairs.collect())
 }
 
 /// A mode from its strains, by the kinematics of `core`.
